@@ -1,0 +1,69 @@
+# Compiler settings, dependencies, and the three functions that every CMakeLists.txt of the project calls.
+
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
+endif()
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+set(CMAKE_CXX_FLAGS_RELEASE "-O3")  # asserts stay on: a certified bound is worth a branch
+set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O1 -g")
+
+option(FC_SANITIZE "Build with the address and undefined-behaviour sanitizers" OFF)
+
+# Warnings are errors; a multiplication and an addition are never fused, so that error bounds hold as derived.
+add_library(fc_settings INTERFACE)
+target_compile_options(fc_settings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Werror -ffp-contract=off)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 14)
+  target_compile_options(fc_settings INTERFACE -Wno-restrict)  # GCC bug 105329: false alarms on "text" + std::string
+endif()
+if(FC_SANITIZE)
+  target_compile_options(fc_settings INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all
+                                               -fno-omit-frame-pointer)
+  target_link_options(fc_settings INTERFACE -fsanitize=address,undefined)
+endif()
+
+find_package(Eigen3 REQUIRED NO_MODULE)
+find_package(yaml-cpp REQUIRED)
+if(NOT TARGET yaml-cpp::yaml-cpp)  # the name before yaml-cpp 0.8
+  add_library(yaml-cpp::yaml-cpp ALIAS yaml-cpp)
+endif()
+find_package(fmt REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(Qhull REQUIRED)
+
+# fc_add_library(NAME SOURCES ... LINKS ...): one stage of the engine as a static library.
+function(fc_add_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINKS" ${ARGN})
+  add_library(${name} STATIC ${ARG_SOURCES})
+  target_include_directories(${name} PUBLIC ${CMAKE_SOURCE_DIR} ${CMAKE_SOURCE_DIR}/chapters)
+  target_link_libraries(${name} PUBLIC fc_settings ${ARG_LINKS})
+endfunction()
+
+# fc_add_chapter(LIBRARY): the executable of the current chapter's folder, from its main.cpp.
+function(fc_add_chapter library)
+  get_filename_component(chapter ${CMAKE_CURRENT_SOURCE_DIR} NAME)
+  add_executable(${chapter} main.cpp)
+  target_link_libraries(${chapter} PRIVATE ${library})
+endfunction()
+
+# fc_add_test(NAME SOURCES ... LINKS ...): a GoogleTest executable whose tests CTest lists one by one. Tests find the
+# source tree, the executables and the public test data through the environment variables set here.
+function(fc_add_test name)
+  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINKS" ${ARGN})
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 300)
+  endif()
+  if(FC_SANITIZE)  # ten times as slow
+    math(EXPR ARG_TIMEOUT "5 * ${ARG_TIMEOUT}")
+  endif()
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE fc_settings ${ARG_LINKS} GTest::gtest_main)
+  target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR} ${CMAKE_SOURCE_DIR}/chapters)
+  target_compile_definitions(${name} PRIVATE FC_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
+                                             FC_BIN_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60
+                       PROPERTIES TIMEOUT ${ARG_TIMEOUT} ENVIRONMENT "RC_PARAMS=seed=20080101")
+endfunction()
