@@ -1,0 +1,77 @@
+// Triangle meshes: the data, what is wrong with them, and how they are made ready for collision.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "common/types.hpp"
+
+namespace fc {
+
+// An indexed triangle mesh. Triangles are counter-clockwise seen from outside.
+struct TriangleMesh {
+  std::vector<Vec3> vertices;                 // #V, metres, the shape's own frame
+  std::vector<std::array<int, 3>> triangles;  // #F, indices into vertices
+};
+
+// What was found in a mesh file, in numbers, and what prepare_mesh did about it.
+struct MeshReport {
+  int vertices = 0;              // after equal positions were merged
+  int triangles = 0;             // after degenerate and duplicate ones were removed
+  int merged_vertices = 0;       // equal positions, or never used
+  int degenerate_triangles = 0;  // zero area (the rule stands at prepare_mesh); removed
+  int duplicate_triangles = 0;   // the same three corners as an earlier one, in either orientation; removed
+  int boundary_edges = 0;        // edges of one triangle
+  int holes = 0;                 // closed loops (connected sets) of boundary edges
+  int nonmanifold_edges = 0;     // edges of three or more triangles
+  int flipped_edges = 0;         // edges whose two triangles disagree in orientation
+  int components = 0;            // sets of triangles connected over shared edges
+  bool inside_out = false;       // a component faced inwards without being a cavity, and was reversed
+  int reversed_components = 0;   // how many
+  bool solid = false;            // closed and consistently oriented, with a volume: it has an inside
+
+  // One line for people: "69,666 triangles, 34,835 vertices, closed, consistently oriented, 1 component", or
+  // the defects.
+  std::string text() const;
+};
+
+struct PreparedMesh {
+  TriangleMesh mesh;
+  MeshReport report;
+};
+
+// Reads Wavefront OBJ, STL (ASCII or binary) or PLY (ASCII or binary, both byte orders), by the file's
+// extension. Polygons are split into triangles that cover them, concave ones too; colours, normals and other
+// extras are passed over. What the file holds is returned as it stands: an STL file repeats each vertex, and
+// nothing is merged or turned yet. Throws InputError with the file's name and, in text formats, line and
+// column: not found, a folder, empty, unreadable, truncated, an index out of range, a coordinate that is not
+// finite or beyond 1e30 m, no triangles. Memory is reserved only for what the file can hold, whatever its
+// header announces.
+TriangleMesh load_mesh(const std::filesystem::path& file);
+
+// Makes a mesh ready for collision: merges vertices at equal positions (exactly equal; -0 equals 0), drops
+// degenerate and duplicate triangles and unused vertices, turns what is inside out, and reports. The order of
+// what remains is kept, and positions are not moved.
+//
+// Degenerate is a triangle with two equal corners, with corners exactly on one line (decided without
+// rounding), or so thin that its normal (b - a) x (c - a) is zero in doubles. Thin triangles beyond that
+// stay. A triangle on one line still counts for the edges: it may be what joins a long edge to the two short
+// ones beside it, so that nothing leaks.
+//
+// Solid is a mesh each of whose edges is used as often in one direction as in the other, and that encloses
+// more than the rounding of its volume. Edges of four triangles may belong to a solid (two cubes that share
+// an edge).
+//
+// Which way round, per component of a solid: if the whole signed volume is negative, all are reversed. A
+// component that then still has a negative volume is a cavity if its bounding box lies in that of an outward
+// one, and stays; if not, it cannot be a cavity, and is reversed. The limit: an inside-out component beside,
+// not inside, another one but within that one's bounding box (a ball in the crook of an L) is taken for a
+// cavity. Meshes that cross themselves are not detected.
+PreparedMesh prepare_mesh(const TriangleMesh& mesh);
+
+// Signed volume of a closed mesh in m^3 (positive if its triangles face outward): sum of a.(b x c)/6.
+double signed_volume(const TriangleMesh& mesh);
+
+}  // namespace fc

@@ -1,0 +1,69 @@
+// The only file that includes CLI11, which takes seconds to compile.
+#include "common/options.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include "common/errors.hpp"
+#include "common/text.hpp"
+
+namespace fc {
+namespace {
+
+// An option that may be given several times, with one value each: a list option would swallow the scene after
+// it.
+template <class Value>
+CLI::Option* add_repeated(CLI::App& app, const std::string& name, std::vector<Value>& values,
+                          const std::string& help) {
+  return app.add_option(name, values, help)
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+}  // namespace
+
+Options parse_options(int argc, char** argv, const std::string& purpose, const std::string& example) {
+  Options options;
+  std::string out;
+  std::vector<std::string> mesh_path;
+  CLI::App app(purpose);
+  app.footer("Example:\n  " + example);
+  app.add_option("SCENE", options.scene, "The scene to run, a YAML file")->required()->type_name("FILE");
+  CLI::Option* out_option =
+      app.add_option("--out", out, "Folder for the results (default: out/<scene name>/)");
+  out_option->type_name("DIR");
+  add_repeated(app, "--set", options.sets, "Set one value of the scene, e.g. ccd.tolerance=1e-4 (repeatable)")
+      ->type_name("KEY.PATH=VALUE");
+  app.add_option("--sweep", options.sweep, "Run once per value; one row per value in sweep.csv")
+      ->type_name("KEY.PATH=V1,V2,...");
+  app.add_flag("--explain", options.explain, "Print which effects are on, why, and what each adds; then exit")
+      ->disable_flag_override();
+  add_repeated(app, "--mesh-path", mesh_path, "Look for meshes here too (repeatable)")->type_name("DIR");
+  app.add_flag("--certificate", options.certificate, "Write certificate.csv: every advance (chapters 1, 2)")
+      ->disable_flag_override();
+  app.add_flag("--poses", options.poses, "Write poses.csv: every body at every frame (chapter 4 on)")
+      ->disable_flag_override();
+  app.add_flag("--quiet", options.quiet, "Print nothing but errors")->disable_flag_override();
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    options.help = app.help();
+    return options;
+  } catch (const CLI::ParseError& error) {
+    throw InputError(one_line(error.what()) + "; see --help");
+  }
+  if (out_option->count() > 0) {
+    if (out.empty()) throw InputError("--out: the folder's name is empty; name a folder");
+    options.out = out;
+  }
+  for (const std::string& folder : mesh_path) {
+    std::error_code ignored;
+    if (!std::filesystem::is_directory(folder, ignored)) {
+      throw InputError("--mesh-path " + one_line(folder) + ": no such folder; check the path");
+    }
+    options.mesh_path.emplace_back(folder);
+  }
+  return options;
+}
+
+}  // namespace fc

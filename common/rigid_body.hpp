@@ -1,0 +1,50 @@
+// The state of a rigid body, and the small formulas that need nothing else.
+#pragma once
+
+#include "common/mass_properties.hpp"
+#include "common/types.hpp"
+
+namespace fc {
+
+// A body's centre of mass, orientation and velocities in the world, and its inverse inertia. A static body
+// has zero inverse mass and inertia, and does not move.
+struct RigidBody {
+  Vec3 position = Vec3::Zero();         // m, the centre of mass
+  Quat orientation = Quat::Identity();  // unit; turns the shape's own axes into world axes
+  Vec3 velocity = Vec3::Zero();         // m/s, of the centre of mass
+  Vec3 spin = Vec3::Zero();             // rad/s, world axes
+
+  double mass = 0;                           // kg; 0 for a static body
+  double inverse_mass = 0;                   // 1/kg
+  Mat3 inertia_body = Mat3::Zero();          // kg m^2, about the centre of mass, shape axes
+  Mat3 inverse_inertia_body = Mat3::Zero();  // 1/(kg m^2)
+
+  bool is_static() const { return inverse_mass == 0; }
+  Pose pose() const { return {orientation.toRotationMatrix(), position}; }
+
+  Mat3 inertia_world() const {
+    const Mat3 r = orientation.toRotationMatrix();
+    return r * inertia_body * r.transpose();
+  }
+  Mat3 inverse_inertia_world() const {
+    const Mat3 r = orientation.toRotationMatrix();
+    return r * inverse_inertia_body * r.transpose();
+  }
+  // The velocity in m/s of the body's point that is at x (m, world).
+  Vec3 velocity_at(const Vec3& x) const { return velocity + spin.cross(x - position); }
+  double kinetic_energy() const {  // J
+    return 0.5 * mass * velocity.squaredNorm() + 0.5 * spin.dot(inertia_world() * spin);
+  }
+  Vec3 momentum() const { return mass * velocity; }  // kg m/s
+  Vec3 angular_momentum() const {                    // kg m^2/s, about the world's origin
+    return position.cross(momentum()) + inertia_world() * spin;
+  }
+  void set_mass(const MassProperties& properties) {
+    mass = properties.mass;
+    inverse_mass = 1 / mass;
+    inertia_body = properties.inertia;
+    inverse_inertia_body = properties.inertia.inverse();
+  }
+};
+
+}  // namespace fc

@@ -1,0 +1,114 @@
+#include "common/scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/scene_check.hpp"
+#include "common/scene_parts.hpp"
+#include "common/text.hpp"
+
+namespace fc {
+namespace {
+
+// The tree with "key.path=value" applied.
+YamlPtr with_override(const YamlPtr& tree, const std::string& option, const std::string& text) {
+  const auto origin = std::make_shared<const std::string>(option + " " + text);
+  const std::size_t equals = text.find('=');
+  const std::string path = text.substr(0, equals);
+  const bool well_formed = !path.empty() && path.front() != '.' && path.back() != '.' &&
+                           path.find("..") == std::string::npos &&
+                           std::count(path.begin(), path.end(), '.') < 10;
+  if (equals == std::string::npos || !well_formed) {
+    refuse({origin}, "not a key and a value; write e.g. ccd.tolerance=1.0e-6");
+  }
+  return with_value(tree, path, parse_yaml(text.substr(equals + 1), origin, true), origin);
+}
+
+StepSpec read_step(const Section& step) {
+  StepSpec spec;
+  spec.dt = step.get(number_value, "dt");
+  spec.duration = step.get(number_value, "duration");
+  const double frames = std::round(spec.duration / spec.dt);
+  constexpr double most_frames = 1e9;
+  if (frames < 1) {
+    refuse(step.node("duration").place,
+           fmt::format("a duration of {} s has no frame of {} s; lengthen it, or shorten dt", spec.duration,
+                       spec.dt));
+  }
+  if (frames > most_frames) {
+    refuse(step.node("duration").place,
+           fmt::format("{} frames are too many; shorten it, or lengthen dt", frames));
+  }
+  spec.frames = static_cast<int>(frames);
+  return spec;
+}
+
+// What a scene must have beside its required keys: bodies and their shapes, or (chapter 3) an LCP and none of
+// them.
+void check_subject(const Section& scene, int chapter) {
+  if (scene.has("lcp")) {
+    for (const char* key : {"shapes", "bodies", "contacts"}) {
+      if (!scene.has(key)) continue;
+      refuse(scene.entry(key).key_place, fmt::format("'{}' beside 'lcp'; keep one of them", key));
+    }
+    return;
+  }
+  for (const char* key : {"shapes", "bodies", "contacts"}) {
+    const SceneKey& row = scene.row(key);
+    if (scene.has(key) || !row.known_in(chapter)) continue;
+    refuse(scene.place(), fmt::format("missing key '{}'; add e.g. {}: {}", key, key, row.example));
+  }
+}
+
+void check_query_bodies(const Section& scene, const std::vector<BodySpec>& bodies) {
+  if (bodies.size() == 2) return;
+  refuse(scene.entry("bodies").key_place,
+         fmt::format("a query needs exactly two bodies, this scene has {}; keep two", bodies.size()));
+}
+
+Scene read_checked(const Section& root, const SceneSource& source) {
+  Scene scene;
+  scene.file = source.file;
+  scene.name = root.get_or(text_value, "name", source.file.stem().string());
+  if (root.has("step")) scene.step = read_step(root.section("step"));
+  if (root.has("gravity")) scene.gravity = root.get(vector_value, "gravity");
+  if (root.has("restitution")) scene.restitution = root.get(number_value, "restitution");
+  if (root.has("ccd")) {
+    const Section ccd = root.section("ccd");
+    scene.ccd.tolerance = ccd.get_or(number_value, "tolerance", scene.ccd.tolerance);
+    scene.ccd.bound = ccd.get_or(text_value, "bound", scene.ccd.bound);
+    scene.ccd.max_iterations = ccd.get_or(integer_value, "max_iterations", scene.ccd.max_iterations);
+  }
+  if (root.has("solver"))
+    scene.solver.method = root.section("solver").get_or(text_value, "method", scene.solver.method);
+  check_subject(root, source.chapter);
+  if (root.has("shapes")) scene.shapes = read_shapes(root, source);
+  if (root.has("bodies")) scene.bodies = read_bodies(root, scene.shapes);
+  scene.interval = root.get_or(number_value, "interval", scene.interval);
+  if (root.has("motions")) scene.motions = resolved_file(root, "motions", source);
+  if (source.chapter <= 2) check_query_bodies(root, scene.bodies);
+  if (root.has("contacts")) scene.contacts = read_contacts(root, scene.bodies);
+  if (root.has("lcp")) scene.lcp = read_lcp(root.section("lcp"), source);
+  return scene;
+}
+
+}  // namespace
+
+Scene read_scene(const SceneSource& source) {
+  const auto origin = std::make_shared<const std::string>(source.file.string());
+  YamlPtr tree = parse_yaml(read_text_file(source.file), origin);
+  if (tree->kind == YamlNode::Kind::nothing) refuse(tree->place, "the file is empty; write a scene into it");
+  if (tree->kind != YamlNode::Kind::map) {
+    refuse(tree->place, "a scene must be a map of keys; begin it with e.g. shapes:");
+  }
+  for (const std::string& text : source.overrides) tree = with_override(tree, "--set", text);
+  if (!source.swept.empty()) tree = with_override(tree, "--sweep", source.swept);
+  std::map<std::string, SourceMark> marks = check_scene_keys(*tree, source.chapter);
+  Scene scene = read_checked(Section(*tree, ""), source);
+  scene.key_marks = std::move(marks);
+  return scene;
+}
+
+}  // namespace fc

@@ -1,0 +1,127 @@
+// A scene as plain data: what scenes/*.yaml says, checked once, before anything is built from it.
+//
+// read_scene refuses everything that contract 1.4 refuses, with file, line and column. Presence matters: an
+// effect is on when, and only when, its key is present, so optional keys are std::optional or carry the mark
+// of their line.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "common/errors.hpp"
+#include "common/types.hpp"
+
+namespace fc {
+
+struct SphereSpec {
+  double radius = 0;  // m
+};
+struct BoxSpec {
+  Vec3 size = Vec3::Zero();  // m, full edge lengths
+};
+struct CapsuleSpec {
+  double radius = 0;  // m
+  double length = 0;  // m, along local z, without the caps
+};
+struct HullSpec {
+  std::vector<Vec3> points;  // m
+};
+struct MeshSpec {
+  std::filesystem::path file;  // resolved: it exists
+  double scale = 1;
+};
+
+struct ShapeSpec {
+  std::string name;
+  std::variant<SphereSpec, BoxSpec, CapsuleSpec, HullSpec, MeshSpec> geometry;
+  std::optional<double> density;       // kg/m^3; never together with mass
+  std::optional<double> mass;          // kg
+  std::optional<Mat3> inertia;         // kg m^2 about the centre of mass, shape axes; needs mass
+  std::optional<Vec3> center_of_mass;  // m, shape frame; only with inertia
+  std::optional<double> restitution;   // [0, 1], overrides the scene's
+  SourceMark where;                    // the shape's name
+  SourceMark geometry_where;           // the value of its sphere/box/.../mesh key
+};
+
+struct BodySpec {
+  int shape = 0;  // index into Scene::shapes
+  bool is_static = false;
+  Vec3 position = Vec3::Zero();         // m, of the shape's own frame
+  Quat orientation = Quat::Identity();  // normalised
+  Vec3 velocity = Vec3::Zero();         // m/s, of the centre of mass
+  Vec3 spin = Vec3::Zero();             // rad/s, world axes
+  SourceMark where;                     // the list item it came from
+};
+
+struct StepSpec {
+  double dt = 0;        // s
+  double duration = 0;  // s
+  int frames = 0;       // round(duration / dt)
+};
+
+struct CcdSpec {
+  double tolerance = 1e-6;            // m
+  std::string bound = "directional";  // the motion bound: directional | naive
+  int max_iterations = 1'000'000;     // per query; then `unresolved`
+};
+
+struct SolverSpec {
+  std::string method = "dantzig";
+};
+
+// A contact written by hand (chapter 3).
+struct ContactSpec {
+  int body_a = 0, body_b = 0;
+  Vec3 point = Vec3::Zero();   // m, world
+  Vec3 normal = Vec3::Zero();  // unit, from A to B
+  SourceMark where;
+};
+
+// A linear complementarity problem given directly (chapter 3): files, or numbers in the scene.
+struct LcpSpec {
+  std::optional<std::filesystem::path> matrix_file, vector_file, solution_file;  // resolved: they exist
+  std::optional<MatX> matrix;                                                    // n by n
+  std::optional<VecX> vector;                                                    // n
+  SourceMark where;
+};
+
+struct Scene {
+  std::filesystem::path file;
+  std::string name;
+  std::optional<StepSpec> step;
+  std::optional<Vec3> gravity;        // m/s^2
+  std::optional<double> restitution;  // [0, 1]
+  CcdSpec ccd;
+  SolverSpec solver;
+  std::vector<ShapeSpec> shapes;                         // in file order
+  std::vector<BodySpec> bodies;                          // grids expanded, numbered from 0
+  double interval = 1;                                   // s (chapters 1, 2)
+  std::optional<std::filesystem::path> motions, linear;  // resolved: they exist
+  std::vector<ContactSpec> contacts;
+  std::optional<LcpSpec> lcp;
+  std::map<std::string, SourceMark>
+      key_marks;  // every key present, by its dotted path ("ccd.tolerance"), for --explain
+
+  // The mark of a key, or nothing if the scene does not have it.
+  std::optional<SourceMark> mark(const std::string& path) const {
+    const auto it = key_marks.find(path);
+    return it == key_marks.end() ? std::nullopt : std::optional(it->second);
+  }
+};
+
+struct SceneSource {
+  std::filesystem::path file;
+  std::vector<std::string> overrides;            // --set: "key.path=value", applied in order
+  std::vector<std::filesystem::path> mesh_path;  // --mesh-path, in order
+  int chapter = 0;                               // refuses keys of later chapters, requires this one's
+  std::string swept = {};                        // --sweep: one more override, applied last
+};
+
+// Throws InputError.
+Scene read_scene(const SceneSource& source);
+
+}  // namespace fc

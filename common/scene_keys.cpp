@@ -1,0 +1,146 @@
+#include "common/scene_keys.hpp"
+
+#include <unordered_map>
+
+namespace fc {
+namespace {
+
+// Limits far beyond any sensible scene, and far enough from overflow that products of a few of them stay
+// finite.
+constexpr Range any{-1e9, 1e9};
+constexpr Range size{1e-9, 1e9};
+constexpr Range positive{1e-18, 1e18};
+constexpr Range fraction{0, 1};
+
+// clang-format off
+std::vector<SceneKey> build_table() {
+  using enum KeyType;
+  constexpr int on = all_later_chapters;
+  const std::string required = "required", none = "none";
+  const std::string one_kind = "required: exactly one kind";
+  const std::string bodies_needed = "required, except with lcp";
+  return {
+  // path, first, last, default, type, unit, range, meaning, example
+  {"name", 1, on, "the file's name", text, "", {}, "Names the scene in summaries and in the output folder.", "two-bodies", {}},
+  {"step", 4, on, required, section, "", {}, "Turns the scene into a simulation of round(duration / dt) frames.", "{dt: 0.01, duration: 4}", {}},
+  {"step.dt", 4, on, required, number, "s", {1e-9, 1e3}, "Length of a frame.", "0.01", {}},
+  {"step.duration", 4, on, required, number, "s", {1e-9, 1e9}, "Simulated time.", "4", {}},
+  {"gravity", 4, on, none, vector3, "m/s^2", any, "Acceleration of every body that moves; absent, none is computed.", "[0, 0, -9.81]", {}},
+  {"restitution", 3, on, "0", number, "1", fraction, "Part of the approach speed that an impact returns; a pair takes the larger of its shapes' values.", "0.5", {}},
+  {"ccd", 1, on, none, section, "", {}, "Continuous collision detection.", "{tolerance: 1.0e-6}", {}},
+  {"ccd.tolerance", 1, on, "1e-6", number, "m", {0, 1e3, true}, "Gap at which two bodies are in contact.", "1.0e-6", {}},
+  {"ccd.bound", 1, 1, "directional", choice, "", {}, "Motion bound: along the separating direction, or the same in all directions; chapter 2 has its own.", "directional", {"directional", "naive"}},
+  {"ccd.max_iterations", 1, on, "1000000", integer, "1", {1, 1e9}, "Advances (chapter 1) or pairs of nodes (later) per query before it ends as unresolved.", "10000", {}},
+  {"solver", 3, on, none, section, "", {}, "The solver of the contact equations.", "{method: dantzig}", {}},
+  {"solver.method", 3, on, "dantzig", choice, "", {}, "Algorithm that solves the LCP.", "dantzig", {"dantzig"}},
+
+  {"shapes", 1, on, bodies_needed, named, "", {}, "Shapes by name; bodies refer to them.", "{ball: {sphere: {radius: 0.5}, mass: 1}}", {}},
+  {"shapes.<name>.sphere", 1, on, one_kind, section, "", {}, "A ball about the shape's origin.", "{radius: 0.5}", {}},
+  {"shapes.<name>.sphere.radius", 1, on, required, number, "m", size, "Radius.", "0.5", {}},
+  {"shapes.<name>.box", 1, on, one_kind, section, "", {}, "A box about the shape's origin.", "{size: [1, 1, 1]}", {}},
+  {"shapes.<name>.box.size", 1, on, required, vector3, "m", size, "Full edge lengths.", "[1, 1, 1]", {}},
+  {"shapes.<name>.capsule", 1, on, one_kind, section, "", {}, "A cylinder along local z with half-spheres at its ends.", "{radius: 0.1, length: 1}", {}},
+  {"shapes.<name>.capsule.radius", 1, on, required, number, "m", size, "Radius of the cylinder and its caps.", "0.1", {}},
+  {"shapes.<name>.capsule.length", 1, on, required, number, "m", size, "Length of the cylinder, without the caps.", "1", {}},
+  {"shapes.<name>.hull", 1, on, one_kind, section, "", {}, "The convex hull of points.", "{points: [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]}", {}},
+  {"shapes.<name>.hull.points", 1, on, required, points, "m", any, "At least four points that span a volume.", "[[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]", {}},
+  {"shapes.<name>.mesh", 2, on, one_kind, file, "", {}, "A triangle mesh: OBJ, STL or PLY; looked for beside the scene, then in --mesh-path folders.", "bunny.obj", {}},
+  {"shapes.<name>.scale", 2, on, "1", number, "1", size, "Factor on the mesh's coordinates.", "1", {}},
+  {"shapes.<name>.density", 1, on, "required to move (chapter 3 on), unless mass", number, "kg/m^3", positive, "Mass per volume; never beside mass.", "1000", {}},
+  {"shapes.<name>.mass", 1, on, "required to move (chapter 3 on), unless density", number, "kg", positive, "Mass; never beside density.", "2", {}},
+  {"shapes.<name>.inertia", 1, on, "of a uniform solid", inertia, "kg m^2", {-1e18, 1e18}, "Inertia about the centre of mass, along the shape's axes; needs mass.", "[0.1, 0.1, 0.1]", {}},
+  {"shapes.<name>.center_of_mass", 1, on, "of a uniform solid", vector3, "m", any, "Centre of mass in the shape's frame; needs inertia.", "[0, 0, 0]", {}},
+  {"shapes.<name>.restitution", 3, on, "the scene's", number, "1", fraction, "Overrides the scene's restitution.", "0.5", {}},
+
+  {"bodies", 1, on, bodies_needed, list, "", {}, "Bodies, numbered from 0 in file order; exactly two in chapters 1 and 2.", "[{shape: ball}]", {}},
+  {"bodies[].shape", 1, on, required, text, "", {}, "Name of the body's shape.", "ball", {}},
+  {"bodies[].static", 1, on, "false", boolean, "", {}, "A static body never moves and needs no mass.", "true", {}},
+  {"bodies[].position", 1, on, "[0, 0, 0]", vector3, "m", any, "Where the shape's own frame is.", "[0, 0, 1]", {}},
+  {"bodies[].orientation", 1, on, "[1, 0, 0, 0]", quaternion, "1", any, "Quaternion [w, x, y, z] that turns the shape's frame; normalised.", "[1, 0, 0, 0]", {}},
+  {"bodies[].velocity", 1, on, "[0, 0, 0]", vector3, "m/s", any, "Velocity of the centre of mass.", "[1, 0, 0]", {}},
+  {"bodies[].spin", 1, on, "[0, 0, 0]", vector3, "rad/s", any, "Angular velocity in world axes.", "[0, 0, 1]", {}},
+  {"bodies[].grid", 1, on, none, section, "", {}, "Repeats the body on a grid that begins at its position.", "{count: [2, 2, 2], spacing: [1, 1, 1]}", {}},
+  {"bodies[].grid.count", 1, on, required, integers3, "1", {1, 1e6}, "Bodies along x, y and z; x counts fastest.", "[10, 10, 10]", {}},
+  {"bodies[].grid.spacing", 1, on, required, vector3, "m", any, "Distance of neighbours along x, y and z.", "[1.1, 1.1, 1.1]", {}},
+
+  {"interval", 1, 2, "1", number, "s", {0, 1e6, true}, "Time that a query covers.", "1", {}},
+  {"motions", 1, 2, "the bodies' own", file, "", {}, "CSV of queries: poses and velocities of both bodies, one query per row.", "motions.csv", {}},
+
+  {"contacts", 3, 3, bodies_needed, list, "", {}, "Contacts of the touching bodies.", "[{a: 0, b: 1, point: [0, 0, 0], normal: [0, 0, 1]}]", {}},
+  {"contacts[].a", 3, 3, required, integer, "", {0, 1e6}, "Number of the first body.", "0", {}},
+  {"contacts[].b", 3, 3, required, integer, "", {0, 1e6}, "Number of the second body.", "1", {}},
+  {"contacts[].point", 3, 3, required, vector3, "m", any, "Where they touch, in the world.", "[0, 0, 0.5]", {}},
+  {"contacts[].normal", 3, 3, required, vector3, "1", any, "Direction from A to B; normalised, not zero.", "[0, 0, 1]", {}},
+  {"lcp", 3, 3, none, section, "", {}, "An LCP w = A z + b given directly: two files, or A and b.", "{A: [[2, 1], [1, 2]], b: [-1, -1]}", {}},
+  {"lcp.matrix", 3, 3, "required with vector", file, "", {}, "Matrix Market file of A.", "A.mtx", {}},
+  {"lcp.vector", 3, 3, "required with matrix", file, "", {}, "Matrix Market file of b.", "b.mtx", {}},
+  {"lcp.solution", 3, 3, none, file, "", {}, "Matrix Market file of a known solution z.", "z.mtx", {}},
+  {"lcp.A", 3, 3, "required with b", matrix, "", {-1e300, 1e300}, "The rows of A, as many as columns.", "[[2, 1], [1, 2]]", {}},
+  {"lcp.b", 3, 3, "required with A", numbers, "", {-1e300, 1e300}, "As many numbers as A has rows.", "[-1, -1]", {}},
+  };
+}
+// clang-format on
+
+std::string parent_of(const std::string& path) {
+  const std::size_t dot = path.rfind('.');
+  return dot == std::string::npos ? "" : path.substr(0, dot);
+}
+
+}  // namespace
+
+const std::vector<SceneKey>& scene_keys() {
+  static const std::vector<SceneKey> table = build_table();
+  return table;
+}
+
+const std::vector<LaterName>& later_names() {
+  static const std::vector<LaterName> names = {
+      {"linear", 1, true},
+      {"solver.method: lemke", 3, true},
+      {"solver.method: pgs", 3, true},
+      {"solver.method: psor", 3, true},
+      {"solver.method: newton", 3, true},
+      {"gyroscopic", 4, true},
+      {"drag", 4, true},
+      {"sleep", 4, true},
+      {"sensor", 4, true},
+      {"kinematic", 4, true},
+      {"envelope", 5, false},
+      {"friction", 6, false},
+  };
+  return names;
+}
+
+const SceneKey* find_scene_key(const std::string& path) {
+  static const auto by_path = [] {
+    std::unordered_map<std::string, const SceneKey*> map;
+    for (const SceneKey& key : scene_keys()) map[key.path] = &key;
+    return map;
+  }();
+  const auto it = by_path.find(path);
+  return it == by_path.end() ? nullptr : it->second;
+}
+
+std::vector<std::string> scene_keys_below(const std::string& parent, int chapter) {
+  std::vector<std::string> names;
+  for (const SceneKey& key : scene_keys()) {
+    if (parent_of(key.path) == parent && key.known_in(chapter)) names.push_back(key.last_name());
+  }
+  return names;
+}
+
+const LaterName* find_later_name(const std::string& name) {
+  for (const LaterName& later : later_names()) {
+    if (later.name == name) return &later;
+  }
+  return nullptr;
+}
+
+std::string chapter_title(int chapter) {
+  static const std::vector<std::string> titles = {"convex advancement", "hull hierarchy",  "impulse LCP",
+                                                  "multibody stepping", "resting contact", "friction"};
+  const auto index = static_cast<std::size_t>(chapter - 1);
+  return "chapter " + std::to_string(chapter) + (index < titles.size() ? " (" + titles[index] + ")" : "");
+}
+
+}  // namespace fc

@@ -1,0 +1,23 @@
+// The readers of a scene's parts, from a tree whose keys and values the table has allowed. Each checks what
+// concerns several keys at once and throws InputError.
+#pragma once
+
+#include "common/scene.hpp"
+#include "common/scene_values.hpp"
+
+namespace fc {
+
+// An existing file that a key names, relative to the scene's folder or absolute.
+std::filesystem::path resolved_file(const Section& section, const std::string& key,
+                                    const SceneSource& source);
+
+std::vector<ShapeSpec> read_shapes(const Section& scene, const SceneSource& source);
+
+// Bodies with their grids expanded.
+std::vector<BodySpec> read_bodies(const Section& scene, const std::vector<ShapeSpec>& shapes);
+
+std::vector<ContactSpec> read_contacts(const Section& scene, const std::vector<BodySpec>& bodies);
+
+LcpSpec read_lcp(const Section& lcp, const SceneSource& source);
+
+}  // namespace fc
