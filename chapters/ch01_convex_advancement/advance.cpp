@@ -1,0 +1,99 @@
+#include "ch01_convex_advancement/advance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace fc::ca {
+namespace {
+
+// Which feature of a core the simplex spans: its distinct points, and the smallest of their numbers.
+void name_feature(const std::array<int, 4>& points, int count, FeatureKind& kind, int& id) {
+  int n = 0;
+  id = points[0];
+  for (int i = 0; i < count; ++i) {
+    bool seen = false;
+    for (int k = 0; k < i; ++k) seen = seen || points[k] == points[i];
+    n += seen ? 0 : 1;
+    id = std::min(id, points[i]);
+  }
+  kind = n == 1 ? FeatureKind::vertex : n == 2 ? FeatureKind::edge : FeatureKind::face;
+}
+
+FeaturePair witness(const GjkResult& g, const Vec3& origin) {
+  FeaturePair pair;
+  pair.point_a = origin + g.point_a;
+  pair.point_b = origin + g.point_b;
+  pair.normal = g.normal;
+  pair.gap = g.normal.dot(g.point_b - g.point_a);
+  name_feature(g.cache.a, g.cache.count, pair.kind_a, pair.id_a);
+  name_feature(g.cache.b, g.cache.count, pair.kind_b, pair.id_b);
+  return pair;
+}
+
+// The sum of two times >= 0, rounded down.
+double sum_below(double t, double step) {
+  const double sum = t + step;
+  const double added = sum - t;
+  const double lost = (t - (sum - added)) + (step - added);  // sum + lost = t + step exactly (Knuth)
+  return lost < 0 ? std::nextafter(sum, t) : sum;
+}
+
+}  // namespace
+
+AdvanceResult advance(const Convex& shape_a, const Motion& motion_a, const Convex& shape_b,
+                      const Motion& motion_b, const AdvanceOptions& options) {
+  check_query(motion_a, motion_b, options);
+  AdvanceResult result;
+  result.node_pairs = 1;
+  double t = 0;
+  SimplexCache cache;
+  while (true) {
+    const PairPose pose(motion_a, motion_b, t);
+    // Below a few rounding terms upper and lower bound cannot meet: a smaller tolerance is raised to that.
+    result.tolerance = std::max(options.tolerance, 8 * rounding_term(shape_a, shape_b, pose));
+    const double target =
+        0.5 * result.tolerance;  // never aim at contact itself: at distance 0 there is no plane
+    const GjkOptions accuracy{0.125 * result.tolerance, 1e-6, 128};
+    GjkResult g = distance(shape_a, shape_b, pose, accuracy, &cache);
+    ++result.distance_calls;
+    if (t == 0 && g.status == GjkResult::Status::overlapping) {
+      const GjkResult plane = touching_plane(shape_a, shape_b, pose, 16 * result.tolerance, g.normal);
+      result.distance_calls += kTouchingPlaneCalls;
+      if (g.cache.count == 0 || plane.lower > g.lower) g = plane;
+    }
+    result.toc = t;
+    result.gap_lower = g.lower;
+    result.gap_upper = g.upper;
+    if (g.upper <= result.tolerance) {
+      if (t > 0)
+        result.status = Status::contact;
+      else
+        result.status =
+            g.lower < -result.tolerance ? Status::penetrating_at_start : Status::touching_at_start;
+      if (result.status != Status::penetrating_at_start)
+        result.features.push_back(witness(g, motion_a.position_at(t)));
+      return result;
+    }
+    if (t >= options.interval) {
+      result.status = Status::separated;
+      return result;
+    }
+    if (result.iterations >= options.max_iterations || g.lower <= target) return result;  // unresolved
+
+    cache = g.cache;
+    const double speed = closing_speed_bound(options.bound, motion_a, motion_b, g.normal, t, options.interval,
+                                             shape_a.reach, shape_b.reach);
+    const double remaining = options.interval - t;
+    double step = speed > 0 ? (g.lower - target) / speed : std::numeric_limits<double>::infinity();
+    const bool clear = step >= remaining;
+    step = std::min(step, remaining);
+    if (options.certificate) result.certificate.push_back({t, g.normal, g.lower, speed, step});
+    const double next = clear ? options.interval : sum_below(t, step);
+    if (!(next > t)) return result;  // unresolved: the step is below the rounding of t
+    ++result.iterations;
+    t = next;
+  }
+}
+
+}  // namespace fc::ca

@@ -1,0 +1,83 @@
+// Distance of two convex polytopes by the method of Gilbert, Johnson and Keerthi, with a bound on each side.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "ch01_convex_advancement/motion.hpp"
+#include "common/types.hpp"
+
+namespace fc::ca {
+
+// A convex core given by points that span it (others inside do no harm), in its body's axes about its centre
+// of mass, and the radius of the ball that rounds it. The radius never enters GJK: it is taken off the
+// distance afterwards.
+struct Convex {
+  std::span<const Vec3> points;  // m, at least one
+  double radius = 0;             // m
+  double reach = 0;              // m, the largest |point|
+  Vec3 center = Vec3::Zero();    // m, somewhere in the middle: where GJK first looks from
+};
+
+// The largest |point|, in m: what Convex::reach must be.
+double reach_of(std::span<const Vec3> points);
+
+// The index of a point of the set that lies farthest along the direction (any length).
+int support(std::span<const Vec3> points, const Vec3& direction);
+
+// The pairs of support points at which GJK stopped. Handed back for a nearby pose, GJK starts there.
+struct SimplexCache {
+  std::array<int, 4> a{}, b{};
+  int count = 0;
+};
+
+struct GjkOptions {
+  double absolute = 1e-9;  // m; stop when upper - lower is at most this ...
+  double relative = 1e-6;  // ... or this times upper
+  int max_iterations = 128;
+};
+
+struct GjkResult {
+  enum class Status {
+    separated,    // lower > 0
+    overlapping,  // the cores share a point, or come closer than rounding can tell; no plane was found
+    limit         // max_iterations; the bounds hold all the same
+  };
+  Status status = Status::limit;
+  double upper = 0;  // m, distance of the witness points; 0 if overlapping
+  double lower = 0;  // m, certified: the gap between the shapes along `normal`, less the rounding term
+  Vec3 normal = Vec3::UnitX();  // unit, from A to B, world: the plane that certifies `lower`
+  Vec3 point_a = Vec3::Zero();  // witness points: where A and B are `upper` apart;
+  Vec3 point_b = Vec3::Zero();  //   world axes, from A's centre of mass
+  int iterations = 0;
+  SimplexCache cache;  // empty if the cores overlap: then there are no witness points either
+};
+
+// The stated rounding term in m: how far a support gap that was computed in double precision can lie above
+// the true one. A support value is n.(R b + p - a): a product of rotations, a rotated vector, two sums and a
+// dot product, each of relative error of a few eps = 2.2e-16; together at most 32 eps times the size of what
+// is summed. The pose itself is known to a few eps times the way and the angle that led to it: a body that
+// came from afar, or has spun for long, is where it is with that error.
+double rounding_term(const Convex& a, const Convex& b, const PairPose& pose);
+
+// Distance of A and B at the given pose. For every unit n the support gap  min n.b - max n.a  is a lower
+// bound of the distance, converged or not; `lower` is the largest that the iterations saw. Works in any
+// simplex state, flat shapes and single points included. `cache` (optional) is read as the first simplex.
+// Gilbert, Johnson, Keerthi (1988); van den Bergen (1999) for the bound.
+GjkResult distance(const Convex& a, const Convex& b, const PairPose& pose, const GjkOptions& options,
+                   const SimplexCache* cache = nullptr);
+
+// The certified gap along a given unit normal (world, from A to B) in m: negative where the shapes overlap
+// along it.
+double support_gap(const Convex& a, const Convex& b, const PairPose& pose, const Vec3& normal);
+
+// For cores that touch or overlap: the best plane that could be found by pushing B aside by `push` (m, small
+// against the shapes, large against the overlap that matters) in eight directions, one of them `hint` (world;
+// the best normal so far), and asking GJK for the plane there. `lower` is then the certified gap of the true
+// pose along it: a lower bound of the signed distance, negative where they overlap. The witness points are
+// where the pushed shapes are nearest, each on its shape at the true pose.
+constexpr int kTouchingPlaneCalls = 8;
+GjkResult touching_plane(const Convex& a, const Convex& b, const PairPose& pose, double push,
+                         const Vec3& hint);
+
+}  // namespace fc::ca

@@ -1,0 +1,127 @@
+#include "ch01_convex_advancement/query_run.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <optional>
+
+namespace fc::ca {
+namespace {
+
+struct Tables {
+  TableWriter queries, features;
+  std::optional<TableWriter> certificate;
+
+  explicit Tables(const RunContext& context)
+      : queries(context.out_dir / "queries.csv", {{"query", ""},
+                                                  {"status", ""},
+                                                  {"toc", "1"},
+                                                  {"gap_lower", "m"},
+                                                  {"gap_upper", "m"},
+                                                  {"iterations", ""},
+                                                  {"distance_calls", ""},
+                                                  {"node_pairs", ""},
+                                                  {"features", ""},
+                                                  {"wall_ns", ""}}),
+        features(context.out_dir / "features.csv", {{"query", ""},
+                                                    {"ax", "m"},
+                                                    {"ay", "m"},
+                                                    {"az", "m"},
+                                                    {"bx", "m"},
+                                                    {"by", "m"},
+                                                    {"bz", "m"},
+                                                    {"nx", ""},
+                                                    {"ny", ""},
+                                                    {"nz", ""},
+                                                    {"gap", "m"},
+                                                    {"kind_a", ""},
+                                                    {"kind_b", ""},
+                                                    {"id_a", ""},
+                                                    {"id_b", ""}}) {
+    if (context.certificate)
+      certificate.emplace(context.out_dir / "certificate.csv", std::vector<Column>{{"query", ""},
+                                                                                   {"k", ""},
+                                                                                   {"t", "s"},
+                                                                                   {"nx", ""},
+                                                                                   {"ny", ""},
+                                                                                   {"nz", ""},
+                                                                                   {"gap_lower", "m"},
+                                                                                   {"speed_bound", "m/s"},
+                                                                                   {"advance", "s"}});
+  }
+
+  void write(std::int64_t query, const AdvanceResult& r, double toc, std::int64_t wall_ns) {
+    queries.row({query, std::string(name_of(r.status)), toc, r.gap_lower, r.gap_upper, r.iterations,
+                 r.distance_calls, r.node_pairs, static_cast<std::int64_t>(r.features.size()), wall_ns});
+    for (const FeaturePair& f : r.features)
+      features.row({query, f.point_a.x(), f.point_a.y(), f.point_a.z(), f.point_b.x(), f.point_b.y(),
+                    f.point_b.z(), f.normal.x(), f.normal.y(), f.normal.z(), f.gap,
+                    std::string(name_of(f.kind_a)), std::string(name_of(f.kind_b)), std::int64_t{f.id_a},
+                    std::int64_t{f.id_b}});
+    if (!certificate) return;
+    std::int64_t k = 0;
+    for (const CertificateRow& row : r.certificate)
+      certificate->row({query, k++, row.t, row.normal.x(), row.normal.y(), row.normal.z(), row.gap_lower,
+                        row.speed_bound, row.advance});
+  }
+};
+
+}  // namespace
+
+void run_queries(const Scene& scene, const std::vector<QueryMotions>& queries, const Ask& ask,
+                 const RunContext& context, Summary& summary) {
+  AdvanceOptions options;
+  options.interval = scene.interval;
+  options.tolerance = scene.ccd.tolerance;
+  options.bound = motion_bound_named(scene.ccd.bound);
+  options.max_iterations = scene.ccd.max_iterations;
+  options.certificate = context.certificate;
+
+  Tables tables(context);
+  std::map<Status, std::int64_t> count;
+  std::vector<std::int64_t> times;
+  std::int64_t iterations = 0, distance_calls = 0, node_pairs = 0, total_ns = 0, raised = 0;
+  Progress progress("queries", static_cast<std::int64_t>(queries.size()), context.quiet);
+  for (std::size_t q = 0; q < queries.size(); ++q) {
+    const auto start = std::chrono::steady_clock::now();
+    const AdvanceResult r = ask(queries[q].a, queries[q].b, options);
+    const std::int64_t wall_ns = (std::chrono::steady_clock::now() - start) / std::chrono::nanoseconds(1);
+    const double toc = r.status == Status::separated ? 1
+                       : options.interval > 0        ? r.toc / options.interval
+                                                     : 0;
+    tables.write(static_cast<std::int64_t>(q), r, toc, wall_ns);
+    ++count[r.status];
+    times.push_back(wall_ns);
+    iterations += r.iterations;
+    distance_calls += r.distance_calls;
+    node_pairs += r.node_pairs;
+    total_ns += wall_ns;
+    raised += r.tolerance > options.tolerance ? 1 : 0;
+    if (queries.size() == 1) {
+      summary.add("status", std::string(name_of(r.status)));
+      summary.add("time of contact", toc, "of the interval");
+      summary.add("gap, certified lower bound", r.gap_lower, "m");
+      summary.add("gap, witness points", r.gap_upper, "m");
+      summary.add("features", static_cast<std::int64_t>(r.features.size()));
+    }
+    progress.update(static_cast<std::int64_t>(q) + 1);
+  }
+  tables.queries.close();
+  tables.features.close();
+  if (tables.certificate) tables.certificate->close();
+
+  std::sort(times.begin(), times.end());
+  summary.add("queries", static_cast<std::int64_t>(queries.size()));
+  for (const Status s : {Status::contact, Status::separated, Status::touching_at_start,
+                         Status::penetrating_at_start, Status::unresolved})
+    summary.add(std::string("queries: ") + name_of(s), count[s]);
+  summary.add("tolerance", options.tolerance, "m");
+  summary.add("queries whose tolerance was raised to the rounding term", raised);
+  summary.add("advances", iterations);
+  summary.add("distance calls", distance_calls);
+  summary.add("pairs of nodes", node_pairs);
+  summary.add_time("median time of a query", times[times.size() / 2]);
+  summary.counter("continuous collision queries", static_cast<std::int64_t>(queries.size()), total_ns);
+}
+
+}  // namespace fc::ca
