@@ -1,0 +1,263 @@
+#include "ch02_hull_hierarchy/features.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "ch02_hull_hierarchy/model_distance.hpp"
+
+namespace fc::hulls {
+namespace {
+
+using ca::FeatureKind;
+using ca::FeaturePair;
+
+constexpr double kConeSlack =
+    1e-9;  // sine of the angle by which a normal may leave a cone and count as on its border
+constexpr double kSameNormal = 1e-6;  // sine of the angle between normals that say the same
+constexpr double kParallelEdges =
+    1e-7;  // sine of the angle below which edges have no cross product to speak of
+constexpr double kOnBorder =
+    1e-9;  // of the model's reach: a vertex this far beyond a face's border lies over it
+constexpr double kJoined = 1e-12;  // of the models' reach: nearer points have no direction between them
+
+// One model at the pose, in A's axes from A's centre of mass, and the features of one of its pieces that can
+// matter.
+struct Placed {
+  const Model& model;
+  Pose pose;
+  std::vector<int> vertices, edges, triangles;
+
+  Vec3 vertex(int v) const { return pose * model.mesh.vertices[v]; }
+  Vec3 turned(const Vec3& direction) const { return pose.rotation * direction; }
+
+  // Keeps the features of a piece that reach within `depth` (m) of its support plane along n: everything that
+  // is nearer to the other side than the tolerance does.
+  void select(int piece, const Vec3& n, double depth) {
+    const Vec3 direction = pose.rotation.transpose() * n;
+    const FeatureMesh& mesh = model.mesh;
+    const auto height = [&](int v) { return direction.dot(mesh.vertices[v]); };
+    double top = -std::numeric_limits<double>::infinity();
+    for_items(model.piece_vertices, piece, [&](int v) { top = std::max(top, height(v)); });
+    const double low = top - depth;
+    vertices.clear();
+    edges.clear();
+    triangles.clear();
+    for_items(model.piece_vertices, piece, [&](int v) {
+      if (height(v) >= low) vertices.push_back(v);
+    });
+    for_items(model.piece_edges, piece, [&](int e) {
+      const auto& [i, j] = mesh.edges[e].vertex;
+      if (!mesh.edges[e].flat && std::max(height(i), height(j)) >= low) edges.push_back(e);
+    });
+    for_items(model.pieces, piece, [&](int t) {
+      const auto& [i, j, k] = mesh.triangles[t];
+      if (std::max({height(i), height(j), height(k)}) >= low) triangles.push_back(t);
+    });
+  }
+  template <class Use>
+  static void for_items(const Lists& lists, int list, Use use) {
+    for (int k = lists.start[list]; k < lists.start[list + 1]; ++k) use(lists.items[k]);
+  }
+
+  // Whether n (towards the other body) lies in the cone of an edge: no neighbouring face leads along n.
+  bool edge_cone(int edge, const Vec3& n) const {
+    bool inside = true;
+    for_items(model.mesh.edge_triangles, edge,
+              [&](int t) { inside = inside && n.dot(turned(model.mesh.inward(t, edge))) <= kConeSlack; });
+    return inside;
+  }
+  bool vertex_cone(int v, const Vec3& n) const {
+    bool inside = true;
+    for_items(model.mesh.vertex_edges, v, [&](int e) {
+      const auto& [i, j] = model.mesh.edges[e].vertex;
+      const Vec3 along = turned(model.mesh.vertices[i == v ? j : i] - model.mesh.vertices[v]).normalized();
+      inside = inside && n.dot(along) <= kConeSlack;
+    });
+    return inside;
+  }
+};
+
+struct Collector {
+  Placed a, b;
+  double tolerance;
+  double radii;
+  Vec3 toward;  // the plane of the pair of pieces that is looked at
+  std::vector<FeaturePair> found;
+
+  // Whether points that are so far apart have a direction between them, or only rounding.
+  bool has_direction(double apart) const { return apart > kJoined * (a.model.reach + b.model.reach); }
+
+  // Points are on the cores; n from A to B. `gap` is between the rounded surfaces.
+  void add(const Vec3& core_a, const Vec3& core_b, const Vec3& n, FeatureKind kind_a, int id_a,
+           FeatureKind kind_b, int id_b) {
+    FeaturePair pair;
+    pair.gap = n.dot(core_b - core_a) - radii;
+    if (std::abs(pair.gap) > tolerance) return;
+    pair.point_a = core_a + a.model.radius * n;
+    pair.point_b = core_b - b.model.radius * n;
+    pair.normal = n;
+    pair.kind_a = kind_a;
+    pair.kind_b = kind_b;
+    pair.id_a = id_a;
+    pair.id_b = id_b;
+    found.push_back(pair);
+  }
+
+  // A vertex of one body over a face of the other. `sign`: +1 if the vertex is A's.
+  void vertex_face(const Placed& with_vertex, int v, const Placed& with_face, int t, double sign) {
+    const Vec3 x = with_vertex.vertex(v);
+    const auto& corner = with_face.model.mesh.triangles[t];
+    Vec3 outward = with_face.turned(with_face.model.mesh.normals[t]);
+    const Vec3 p = with_face.vertex(corner[0]);
+    double height = outward.dot(x - p);
+    if (std::abs(std::abs(height) - radii) > tolerance) return;
+    if (-sign * outward.dot(toward) <= 0) {  // the face looks away; a mere surface has two sides
+      if (with_face.model.mesh.solid) return;
+      outward = -outward;
+      height = -height;
+    }
+    const double border = kOnBorder * with_face.model.reach;
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 from = with_face.vertex(corner[k]);
+      const Vec3 inward = with_face.turned(with_face.model.mesh.normals[t])
+                              .cross(with_face.vertex(corner[(k + 1) % 3]) - from);
+      if (inward.dot(x - from) < -border * inward.norm()) return;
+    }
+    const Vec3 foot = x - height * outward;
+    if (sign > 0)
+      add(x, foot, -outward, FeatureKind::vertex, v, FeatureKind::face, t);
+    else
+      add(foot, x, outward, FeatureKind::face, t, FeatureKind::vertex, v);
+  }
+
+  void edge_edge(int e, int f) {
+    const auto& [a0, a1] = a.model.mesh.edges[e].vertex;
+    const auto& [b0, b1] = b.model.mesh.edges[f].vertex;
+    const Vec3 p = a.vertex(a0), u = a.vertex(a1) - p, q = b.vertex(b0), v = b.vertex(b1) - q;
+    const Vec3 cross = u.cross(v);
+    const double size2 = cross.squaredNorm();
+    if (size2 <= kParallelEdges * kParallelEdges * u.squaredNorm() * v.squaredNorm()) return;
+    const double s = (q - p).cross(v).dot(cross) / size2;
+    const double r = (q - p).cross(u).dot(cross) / size2;
+    if (!(s > 0 && s < 1 && r > 0 && r < 1)) return;
+    Vec3 n = cross / std::sqrt(size2);
+    const Vec3 x = p + s * u, y = q + r * v;
+    const double apart = n.dot(y - x);
+    // Which way is from A to B: where the gap is more than rounding, the gap knows; else the cones do.
+    if (apart < -tolerance || (std::abs(apart) <= tolerance && n.dot(toward) < 0)) n = -n;
+    if (!a.edge_cone(e, n) || !b.edge_cone(f, -n)) return;
+    add(x, y, n, FeatureKind::edge, e, FeatureKind::edge, f);
+  }
+
+  // A vertex nearest to the inside of an edge, or to a vertex: the normal joins them. `v` is with_vertex's.
+  void vertex_edge(const Placed& with_vertex, int v, const Placed& with_edge, int e, double sign) {
+    const auto& [i, j] = with_edge.model.mesh.edges[e].vertex;
+    const Vec3 x = with_vertex.vertex(v), p = with_edge.vertex(i), u = with_edge.vertex(j) - p;
+    const double s = u.dot(x - p) / u.squaredNorm();
+    if (!(s > 0 && s < 1)) return;
+    const Vec3 foot = p + s * u;
+    const double apart = (foot - x).norm();
+    if (std::abs(apart - radii) > tolerance || !has_direction(apart)) return;
+    const Vec3 n = sign * (foot - x) / apart;
+    const Vec3 strict = sign * n;  // from the vertex's body to the edge's
+    if (n.dot(toward) <= 0) return;
+    if (!with_vertex.vertex_cone(v, strict) || !with_edge.edge_cone(e, -strict)) return;
+    if (sign > 0)
+      add(x, foot, n, FeatureKind::vertex, v, FeatureKind::edge, e);
+    else
+      add(foot, x, n, FeatureKind::edge, e, FeatureKind::vertex, v);
+  }
+  void vertex_vertex(int v, int w) {
+    const Vec3 x = a.vertex(v), y = b.vertex(w);
+    const double apart = (y - x).norm();
+    if (std::abs(apart - radii) > tolerance || !has_direction(apart)) return;
+    const Vec3 n = (y - x) / apart;
+    if (n.dot(toward) <= 0 || !a.vertex_cone(v, n) || !b.vertex_cone(w, -n)) return;
+    add(x, y, n, FeatureKind::vertex, v, FeatureKind::vertex, w);
+  }
+
+  void pieces(const LeafPair& pair, const Vec3& normal_in_a) {
+    toward = normal_in_a;
+    const double depth = 2 * tolerance + std::max(0.0, -pair.gjk.lower);
+    a.select(std::max(0, a.model.tree.nodes[pair.a].piece), toward, depth);
+    b.select(std::max(0, b.model.tree.nodes[pair.b].piece), -toward, depth);
+    for (const int v : a.vertices)
+      for (const int t : b.triangles) vertex_face(a, v, b, t, 1);
+    for (const int v : b.vertices)
+      for (const int t : a.triangles) vertex_face(b, v, a, t, -1);
+    for (const int e : a.edges)
+      for (const int f : b.edges) edge_edge(e, f);
+    for (const int v : a.vertices)
+      for (const int e : b.edges) vertex_edge(a, v, b, e, 1);
+    for (const int v : b.vertices)
+      for (const int e : a.edges) vertex_edge(b, v, a, e, -1);
+    for (const int v : a.vertices)
+      for (const int w : b.vertices) vertex_vertex(v, w);
+  }
+};
+
+FeaturePair witness(const LeafPair& pair, const Mat3& to_a) {  // in A's axes, like the others
+  FeaturePair w;
+  w.point_a = to_a * pair.gjk.point_a;
+  w.point_b = to_a * pair.gjk.point_b;
+  w.normal = to_a * pair.gjk.normal;
+  w.gap = std::max(pair.gjk.lower, std::min(pair.gjk.upper, w.normal.dot(w.point_b - w.point_a)));
+  return w;
+}
+
+// Faces first, then edges, then vertices, so that of pairs that say the same the one with the best normal
+// stays.
+void sort_and_merge(std::vector<FeaturePair>& pairs, double tolerance) {
+  const auto rank = [](const FeaturePair& p) {
+    const bool face = p.kind_a == FeatureKind::face || p.kind_b == FeatureKind::face;
+    const bool edges = p.kind_a == FeatureKind::edge && p.kind_b == FeatureKind::edge;
+    return face ? 0 : edges ? 1 : 2;
+  };
+  std::sort(pairs.begin(), pairs.end(), [&](const FeaturePair& x, const FeaturePair& y) {
+    return std::tuple(rank(x), x.kind_a, x.id_a, x.kind_b, x.id_b) <
+           std::tuple(rank(y), y.kind_a, y.id_a, y.kind_b, y.id_b);
+  });
+  std::vector<FeaturePair> kept;
+  for (const FeaturePair& pair : pairs) {
+    const bool same = std::any_of(kept.begin(), kept.end(), [&](const FeaturePair& other) {
+      return (pair.point_a - other.point_a).norm() <= tolerance && pair.normal.dot(other.normal) > 0 &&
+             pair.normal.cross(other.normal).norm() <= kSameNormal;
+    });
+    if (!same) kept.push_back(pair);
+  }
+  pairs.swap(kept);
+}
+
+}  // namespace
+
+std::vector<ca::FeaturePair> contact_features(const Model& a, const Model& b, const ca::PairPose& pose,
+                                              const Vec3& origin_a, double tolerance) {
+  const Mat3 to_a = pose.rotation_a.transpose();
+  Collector collector{
+      {a, {}, {}, {}, {}}, {b, pose.b_in_a, {}, {}, {}}, tolerance, a.radius + b.radius, {}, {}};
+  const std::vector<LeafPair> near = leaf_pairs_within(a, b, pose, tolerance, tolerance);
+  const LeafPair* nearest = nullptr;
+  for (const LeafPair& pair : near) {
+    collector.pieces(pair, to_a * pair.gjk.normal);
+    if (nearest == nullptr || pair.gjk.lower < nearest->gjk.lower) nearest = &pair;
+  }
+  if (nearest != nullptr) {
+    // The plane at which advancement stopped must be among the contacts, or the impulse would not stop the
+    // approach.
+    const FeaturePair w = witness(*nearest, to_a);
+    const bool covered = std::any_of(collector.found.begin(), collector.found.end(),
+                                     [&](const FeaturePair& f) { return f.normal.dot(w.normal) > 1 - 1e-6; });
+    if (!covered) collector.found.push_back(w);
+  }
+  std::vector<FeaturePair> pairs = std::move(collector.found);
+  sort_and_merge(pairs, tolerance);
+  for (FeaturePair& pair : pairs) {
+    pair.point_a = origin_a + pose.rotation_a * pair.point_a;
+    pair.point_b = origin_a + pose.rotation_a * pair.point_b;
+    pair.normal = (pose.rotation_a * pair.normal).normalized();
+  }
+  return pairs;
+}
+
+}  // namespace fc::hulls

@@ -1,0 +1,28 @@
+// The features of two models that are in contact.
+#pragma once
+
+#include <vector>
+
+#include "ch01_convex_advancement/query.hpp"
+#include "ch02_hull_hierarchy/model.hpp"
+
+namespace fc::hulls {
+
+// All pairs of features within `tolerance` (m) of each other at a pose; `origin_a` (m, world) is A's centre
+// of mass. Points are in the world, normals are unit and point from A to B, gaps are signed along the normal
+// (slightly negative where shapes that touch exactly overlap by rounding).
+//
+//   vertex-face    the vertex lies over the face; the normal is the face's, so it is exact however small the
+//   gap edge-edge      both nearest points lie inside the edges; the normal is their cross product; neither
+//   edge is flat vertex-edge, vertex-vertex   only where no face and no edge is nearer; the normal joins the
+//   points
+//
+// An edge or vertex takes part only if the normal lies in its cone: moving along a neighbouring face or edge
+// must not lead nearer to the other body, else that face or edge is the contact. Pairs that say the same
+// (same normal within 1e-6, points within the tolerance) are merged; the result is sorted by kinds and
+// numbers. Vertices, edges and faces are numbered as in Model::mesh. If the features' tests leave nothing,
+// the nearest witness points are the contact.
+std::vector<ca::FeaturePair> contact_features(const Model& a, const Model& b, const ca::PairPose& pose,
+                                              const Vec3& origin_a, double tolerance);
+
+}  // namespace fc::hulls

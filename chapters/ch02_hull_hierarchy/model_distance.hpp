@@ -1,0 +1,41 @@
+// Distance of two models at one pose.
+#pragma once
+
+#include <vector>
+
+#include "ch02_hull_hierarchy/model.hpp"
+
+namespace fc::hulls {
+
+struct LeafPair {
+  int a = -1, b = -1;  // nodes of the two trees, both leaves
+  ca::GjkResult
+      gjk;  // bounds, plane and witness points (from A's centre of mass); lower < 0: overlap along the plane
+};
+
+struct ModelDistance {
+  double lower =
+      0;  // m, certified; negative: a lower bound of the signed distance of the deepest pair of pieces
+  double upper = 0;  // m, of the nearest witness points; 0 if pieces touch
+  LeafPair nearest;  // not set (a = -1) if nothing lies within the cutoff
+  int distance_calls = 0;
+};
+
+// Distance of the surfaces' pieces, best first: the pair of nodes with the smallest lower bound is opened
+// next, and what cannot come nearer than the nearest witness points is never opened. `tolerance` (m) as for
+// leaf_distance. Above `cutoff` (m) only lower >= cutoff is promised. A solid inside another is not noticed
+// here, but by inside.hpp.
+ModelDistance model_distance(const Model& a, const Model& b, const ca::PairPose& pose, double tolerance,
+                             double cutoff = std::numeric_limits<double>::infinity());
+
+// All pairs of leaves whose certified gap is at most `threshold` (m), in the order of the trees.
+std::vector<LeafPair> leaf_pairs_within(const Model& a, const Model& b, const ca::PairPose& pose,
+                                        double threshold, double tolerance);
+
+// Distance of two leaves; where they touch or overlap, along the best plane that can be found. Upper less
+// lower bound is at most tolerance/16 (m), or 1e-6 of upper, where they are apart; overlaps of up to a few
+// tolerances are measured.
+ca::GjkResult leaf_distance(const ca::Convex& a, const ca::Convex& b, const ca::PairPose& pose,
+                            double tolerance);
+
+}  // namespace fc::hulls
