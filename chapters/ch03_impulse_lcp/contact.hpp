@@ -1,0 +1,29 @@
+// A contact as chapter 3 sees it: one point at which two bodies touch, and the direction in which they push.
+#pragma once
+
+#include <span>
+
+#include "common/rigid_body.hpp"
+
+namespace fc::lcp {
+
+// Two bodies touch at one common point. The impulse j >= 0 (N s) acts there along +normal on B and along
+// -normal on A; one point for both, or a pair of forces with a lever arm (the gap) would change the total
+// angular momentum.
+struct Contact {
+  int body_a = 0, body_b = 0;  // indices into the bodies; not equal
+  Vec3 point = Vec3::Zero();   // m, world
+  Vec3 normal = Vec3::Zero();  // unit, world, from A to B
+  double gap = 0;              // m, distance of the two surfaces; reported, never used by the impact law
+  double restitution = 0;      // Newton's epsilon, in [0, 1]
+};
+
+// The relative normal velocity v = n.(v_B - v_A) at the contact point, m/s: negative while the bodies
+// approach.
+inline double contact_velocity(std::span<const RigidBody> bodies, const Contact& contact) {
+  const Vec3 velocity_a = bodies[static_cast<std::size_t>(contact.body_a)].velocity_at(contact.point);
+  const Vec3 velocity_b = bodies[static_cast<std::size_t>(contact.body_b)].velocity_at(contact.point);
+  return contact.normal.dot(velocity_b - velocity_a);
+}
+
+}  // namespace fc::lcp

@@ -1,0 +1,95 @@
+#include "ch03_impulse_lcp/delassus.hpp"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace fc::lcp {
+namespace {
+
+// The largest deviation of |n|^2 from 1 that round-off of a normalised vector explains with ample room; a
+// normal that is off by more is a caller's mistake and would scale impulses silently.
+constexpr double kUnitNormal = 1e-9;
+
+// What a contact sees of one of its two bodies.
+struct Side {
+  int contact;       // the row
+  double sign;       // +1 on B, -1 on A
+  Vec3 normal;       // the row of J for the body's velocity, without the sign
+  Vec3 arm;          // r x n: the row of J for the body's spin
+  Vec3 spin_change;  // I^-1 (r x n): what a unit impulse does to the spin
+};
+
+void check_contact(const Contact& contact, std::size_t index, std::size_t bodies) {
+  const std::string where = "contact " + std::to_string(index) + ": ";
+  const auto valid = [bodies](int body) { return body >= 0 && static_cast<std::size_t>(body) < bodies; };
+  if (!valid(contact.body_a) || !valid(contact.body_b) || contact.body_a == contact.body_b) {
+    throw std::invalid_argument(where + "bodies " + std::to_string(contact.body_a) + " and " +
+                                std::to_string(contact.body_b) + " of " + std::to_string(bodies) +
+                                "; two different bodies are needed");
+  }
+  if (!contact.point.allFinite()) throw std::invalid_argument(where + "the point is not finite");
+  if (!(std::abs(contact.normal.squaredNorm() - 1) <= kUnitNormal)) {
+    throw std::invalid_argument(where + "the normal's length is " + std::to_string(contact.normal.norm()) +
+                                ", not 1");
+  }
+  if (!(contact.restitution >= 0 && contact.restitution <= 1)) {
+    throw std::invalid_argument(where + "the restitution is " + std::to_string(contact.restitution) +
+                                ", outside [0, 1]");
+  }
+}
+
+// Adds to A what the contacts of one moving body share through it.
+void add_body(const RigidBody& body, const std::vector<Side>& sides, MatX& A) {
+  for (std::size_t s = 0; s < sides.size(); ++s) {
+    for (std::size_t t = 0; t <= s; ++t) {
+      const Side& p = sides[s];
+      const Side& q = sides[t];
+      const double shared =
+          p.sign * q.sign * (body.inverse_mass * p.normal.dot(q.normal) + p.arm.dot(q.spin_change));
+      A(p.contact, q.contact) += shared;
+      if (p.contact != q.contact) A(q.contact, p.contact) += shared;
+    }
+  }
+}
+
+}  // namespace
+
+void check_contacts(std::span<const RigidBody> bodies, std::span<const Contact> contacts) {
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    check_contact(contacts[i], i, bodies.size());
+    if (!std::isfinite(contact_velocity(bodies, contacts[i]))) {
+      throw std::invalid_argument("contact " + std::to_string(i) + ": its velocity is not finite");
+    }
+  }
+}
+
+ImpactProblem assemble(std::span<const RigidBody> bodies, std::span<const Contact> contacts) {
+  check_contacts(bodies, contacts);
+  const auto n = static_cast<Eigen::Index>(contacts.size());
+  ImpactProblem problem{MatX::Zero(n, n), VecX(n), VecX(n)};
+
+  // Collect, for each body that can move, the contacts at which it takes part.
+  std::vector<std::vector<Side>> sides(bodies.size());
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const Contact& contact = contacts[i];
+    const double v = contact_velocity(bodies, contact);
+    const auto row = static_cast<Eigen::Index>(i);
+    problem.v_before[row] = v;
+    problem.b[row] = (1 + contact.restitution) * v;
+    for (const bool on_b : {false, true}) {
+      const auto index = static_cast<std::size_t>(on_b ? contact.body_b : contact.body_a);
+      const RigidBody& body = bodies[index];
+      if (body.is_static()) continue;
+      const Vec3 arm = (contact.point - body.position).cross(contact.normal);
+      sides[index].push_back(
+          {static_cast<int>(i), on_b ? 1.0 : -1.0, contact.normal, arm, body.inverse_inertia_world() * arm});
+    }
+  }
+
+  for (std::size_t k = 0; k < bodies.size(); ++k) add_body(bodies[k], sides[k], problem.A);
+  return problem;
+}
+
+}  // namespace fc::lcp

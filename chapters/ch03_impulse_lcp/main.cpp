@@ -1,0 +1,233 @@
+// Chapter 3: solves the impact of bodies that touch, or an LCP given directly.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <optional>
+
+#include "ch03_impulse_lcp/dantzig.hpp"
+#include "ch03_impulse_lcp/delassus.hpp"
+#include "ch03_impulse_lcp/impact.hpp"
+#include "ch03_impulse_lcp/matrix_market.hpp"
+#include "common/program.hpp"
+#include "common/shape.hpp"
+
+namespace {
+
+using namespace fc;
+using namespace fc::lcp;
+
+std::int64_t now_ns() {
+  using namespace std::chrono;
+  return duration_cast<nanoseconds>(steady_clock::now().time_since_epoch()).count();
+}
+
+struct TimedResult {
+  LcpResult lcp;
+  std::int64_t ns = 0;
+};
+
+TimedResult solve_timed(const MatX& A, const VecX& b) {
+  const std::int64_t start = now_ns();
+  LcpResult lcp = solve_dantzig(A, b);
+  return {std::move(lcp), now_ns() - start};
+}
+
+// solution.csv, solvers.csv and their part of the summary.
+void write_solution(const TimedResult& solved, const RunContext& context, Summary& summary) {
+  const LcpResult& lcp = solved.lcp;
+  TableWriter solution(context.out_dir / "solution.csv", {{"row", ""}, {"z", ""}, {"w", ""}});
+  for (Eigen::Index i = 0; i < lcp.z.size(); ++i) solution.row({std::int64_t{i}, lcp.z[i], lcp.w[i]});
+  solution.close();
+  TableWriter solvers(
+      context.out_dir / "solvers.csv",
+      {{"solver", ""}, {"status", ""}, {"pivots_or_sweeps", ""}, {"residual", ""}, {"wall_ns", ""}});
+  solvers.row({"dantzig", name(lcp.status), std::int64_t{lcp.pivots}, lcp.residual, solved.ns});
+  solvers.close();
+  summary.add("solver", "dantzig");
+  summary.add("status", name(lcp.status));
+  summary.add("rows", std::int64_t{lcp.z.size()});
+  summary.add("pivots", std::int64_t{lcp.pivots});
+  summary.add("residual", lcp.residual, "1");
+}
+
+// After the tables are written: a run without a solution ends with exit code 3 and says why.
+void require_solved(Status status) {
+  if (status == Status::solved) return;
+  const char* why = status == Status::no_solution
+                        ? "the problem has no solution; this is proved by a certificate"
+                    : status == Status::unsuited ? "the matrix is not symmetric positive semidefinite"
+                                                 : "the pivot limit was reached or round-off won";
+  throw NumericalFailure(fmt::format("dantzig: {}: {}", name(status), why));
+}
+
+// A vector in a Matrix Market file: one column of n numbers.
+VecX read_vector(const std::filesystem::path& file, Eigen::Index n) {
+  const MatX column = read_matrix_market(file);
+  if (column.cols() != 1 || column.rows() != n) {
+    throw InputError({file.string(), 0, 0},
+                     fmt::format("{} by {} numbers, but the matrix has {} rows; one column of {} is needed",
+                                 column.rows(), column.cols(), n, n));
+  }
+  return column;
+}
+
+int run_lcp(const LcpSpec& spec, const RunContext& context, Summary& summary) {
+  const MatX A = spec.matrix ? *spec.matrix : read_matrix_market(*spec.matrix_file);
+  if (A.rows() != A.cols()) {
+    const SourceMark where = spec.matrix_file ? SourceMark{spec.matrix_file->string(), 0, 0} : spec.where;
+    throw InputError(where,
+                     fmt::format("the matrix of an LCP is square, this one is {} by {}", A.rows(), A.cols()));
+  }
+  const VecX b = spec.vector ? *spec.vector : read_vector(*spec.vector_file, A.rows());
+  std::optional<VecX> known;
+  if (spec.solution_file) known = read_vector(*spec.solution_file, A.rows());
+
+  const TimedResult solved = solve_timed(A, b);
+  write_solution(solved, context, summary);
+  if (known && b.size() > 0) {
+    // Velocities, not impulses: of a singular matrix z is not unique, w is.
+    summary.add("largest difference of w from the given solution",
+                (solved.lcp.w - evaluate(A, b, *known)).lpNorm<Eigen::Infinity>());
+  }
+  summary.counter("dantzig", 1, solved.ns);
+  require_solved(solved.lcp.status);
+  return 0;
+}
+
+struct Totals {
+  double kinetic = 0;
+  Vec3 momentum = Vec3::Zero(), angular_momentum = Vec3::Zero();
+};
+
+Totals totals(const std::vector<RigidBody>& bodies) {
+  Totals sum;
+  for (const RigidBody& body : bodies) {
+    if (body.is_static()) continue;
+    sum.kinetic += body.kinetic_energy();
+    sum.momentum += body.momentum();
+    sum.angular_momentum += body.angular_momentum();
+  }
+  return sum;
+}
+
+void add_totals(const std::string& when, const Totals& sum, Summary& summary) {
+  summary.add("kinetic energy " + when, sum.kinetic, "J");
+  for (int k = 0; k < 3; ++k)
+    summary.add(fmt::format("momentum {} {}", "xyz"[k], when), sum.momentum[k], "kg m/s");
+  for (int k = 0; k < 3; ++k) {
+    summary.add(fmt::format("angular momentum {} {}", "xyz"[k], when), sum.angular_momentum[k], "kg m^2/s");
+  }
+}
+
+void write_contacts(const std::vector<Contact>& contacts, const ImpactResult& impact,
+                    const RunContext& context) {
+  TableWriter table(context.out_dir / "contacts.csv", {{"t", "s"},
+                                                       {"body_a", ""},
+                                                       {"body_b", ""},
+                                                       {"x", "m"},
+                                                       {"y", "m"},
+                                                       {"z", "m"},
+                                                       {"nx", ""},
+                                                       {"ny", ""},
+                                                       {"nz", ""},
+                                                       {"gap", "m"},
+                                                       {"v_before", "m/s"},
+                                                       {"v_after", "m/s"},
+                                                       {"impulse", "N s"}});
+  for (const Impulse& p : impact.impulses) {
+    const Contact& c = contacts[static_cast<std::size_t>(p.contact)];
+    table.row({0.0, std::int64_t{c.body_a}, std::int64_t{c.body_b}, c.point.x(), c.point.y(), c.point.z(),
+               c.normal.x(), c.normal.y(), c.normal.z(), c.gap, p.v_before, p.v_after, p.impulse});
+  }
+  table.close();
+}
+
+int run_contacts(const Scene& scene, const RunContext& context, Summary& summary) {
+  // Build the bodies, and the contacts with the larger restitution of each pair.
+  const std::vector<Shape> shapes = build_shapes(scene, true);
+  std::vector<RigidBody> bodies;
+  const auto shape_of = [&](int body) -> const Shape& {
+    return shapes[static_cast<std::size_t>(scene.bodies[static_cast<std::size_t>(body)].shape)];
+  };
+  for (const BodySpec& spec : scene.bodies)
+    bodies.push_back(make_body(shapes[static_cast<std::size_t>(spec.shape)], spec));
+  std::vector<Contact> contacts;
+  for (const ContactSpec& spec : scene.contacts) {
+    const double restitution = std::max(shape_of(spec.body_a).restitution, shape_of(spec.body_b).restitution);
+    contacts.push_back({spec.body_a, spec.body_b, spec.point, spec.normal, 0.0, restitution});
+  }
+
+  // Resolve the impact, keeping the first solve that succeeded, or the first of all, for the tables.
+  std::optional<TimedResult> shown;
+  std::int64_t solver_runs = 0, solver_ns = 0;
+  const ImpactOptions options{.solver = [&](const MatX& A, const VecX& b) {
+    const TimedResult solved = solve_timed(A, b);
+    if (!shown || (shown->lcp.status != Status::solved && solved.lcp.status == Status::solved))
+      shown = solved;
+    ++solver_runs;
+    solver_ns += solved.ns;
+    return solved.lcp;
+  }};
+  const Totals before = totals(bodies);
+  const std::int64_t start = now_ns();
+  const ImpactResult impact = resolve_impact(bodies, contacts, options);
+  const std::int64_t impact_ns = now_ns() - start;
+  if (!shown) {  // nothing approaches: the LCP of these contacts has the answer z = 0
+    const ImpactProblem problem = assemble(bodies, contacts);
+    shown = solve_timed(problem.A, problem.b);
+  }
+
+  write_solution(*shown, context, summary);
+  write_contacts(contacts, impact, context);
+  summary.add("solves in the same instant", std::int64_t{impact.solves});
+  summary.add("impulses", static_cast<std::int64_t>(impact.impulses.size()));
+  if (impact.restitution_lowered)
+    summary.add("restitution", "mixed, without solution: the smallest was used for all");
+  add_totals("before", before, summary);
+  add_totals("after", totals(bodies), summary);
+  summary.add("change of kinetic energy", impact.energy_change, "J");
+  summary.add("change that the law predicts", impact.energy_identity, "J");
+  summary.add("fastest approach left", impact.fastest_approach, "m/s");
+  summary.counter("impact", impact.solves, impact_ns);
+  summary.counter("dantzig", solver_runs, solver_ns);
+  require_solved(impact.status);
+  return 0;
+}
+
+std::vector<Effect> explain(const Scene& scene) {
+  const auto line = [](const SourceMark& mark) { return "declared at line " + std::to_string(mark.line); };
+  if (scene.lcp) return {{"lcp", line(scene.lcp->where), "solver (Dantzig)", 1}};
+  std::vector<Effect> effects;
+  if (!scene.contacts.empty()) {
+    effects.push_back(
+        {"contacts", line(scene.contacts.front().where), "Delassus matrix, solver (Dantzig)", 1});
+  }
+  if (const auto mark = scene.mark("restitution")) {
+    effects.push_back({"restitution", line(*mark), "right-hand side (1 + epsilon) v", 0});
+  } else {
+    for (const ShapeSpec& shape : scene.shapes) {
+      if (!shape.restitution) continue;
+      effects.push_back({"restitution", line(shape.where), "right-hand side (1 + epsilon) v", 0});
+      break;
+    }
+  }
+  return effects;
+}
+
+int run(const Scene& scene, const RunContext& context, Summary& summary) {
+  return scene.lcp ? run_lcp(*scene.lcp, context, summary) : run_contacts(scene, context, summary);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return run_program(
+      argc, argv,
+      {.number = 3,
+       .name = "ch03_impulse_lcp",
+       .purpose = "Finds the impulses of bodies that hit each other at many contacts at once, or solves "
+                  "a linear complementarity problem, by Dantzig's method.",
+       .example = "build/bin/ch03_impulse_lcp chapters/ch03_impulse_lcp/scenes/newtons_cradle.yaml",
+       .explain = explain,
+       .run = run});
+}

@@ -1,0 +1,55 @@
+// The linear complementarity problem (LCP), what a solver of it returns, and the check that stands between
+// the two.
+//
+//     w = A z + b,   z >= 0,   w >= 0,   z_i w_i = 0 for every row i
+//
+// For impacts z are impulses (N s), w velocities (m/s) and A the Delassus matrix (1/kg), but nothing here
+// depends on that.
+#pragma once
+
+#include "common/types.hpp"
+
+namespace fc::lcp {
+
+enum class Status {
+  solved,       // z passed acceptable()
+  no_solution,  // proved: a certificate y >= 0, A'y <= 0, b'y < 0 was found and checked
+  ray,          // the method ran off to infinity (Lemke's method; Dantzig's never says this)
+  limit,        // the pivot limit was reached, or round-off won: the result did not pass acceptable()
+  unsuited,     // the matrix is not one that the method is made for
+};
+
+// "solved", "no_solution", "ray", "limit", "unsuited": the words of solvers.csv.
+const char* name(Status status);
+
+// What every solver returns. Unless solved, z and w are where the method stopped: finite, and not to be used
+// as an answer.
+struct LcpResult {
+  Status status = Status::limit;
+  VecX z;               // n
+  VecX w;               // n, always A z + b, computed anew from z
+  double residual = 0;  // of (z, w), see residual()
+  int pivots = 0;       // exchanges of a row between the sets "z >= 0, w = 0" and "z = 0, w >= 0"
+};
+
+// Throws std::invalid_argument unless A is n by n, b is n long and all their entries are finite.
+void check_arguments(const MatX& A, const VecX& b);
+
+// w = A z + b, each row summed in extended precision and rounded once.
+VecX evaluate(const MatX& A, const VecX& b, const VecX& z);
+
+// How far (z, w) is from complementary, without a unit: max_i |min(s_i z_i, w_i)| / max(|b|, ||A||z||), norms
+// of the largest entry, s_i = max_j |A_ij|; 0 where numerator and denominator are 0. Multiplying A, b or z by
+// a positive number changes nothing. All arguments n long or n by n. A NaN anywhere gives NaN.
+double residual(const MatX& A, const VecX& b, const VecX& z, const VecX& w);
+
+// Whether (z, w) may be called solved. True only if
+//   z >= 0 exactly, and z_i = 0 where s_i = 0 < w_i;
+//   w is A z + b to within r = 8 n epsilon max_i (|A||z|)_i, the round-off of a sum of n products;
+//   max_i |min(s_i z_i, w_i)| <= 1e-6 max|b| + r, and r <= 1e-3 max|b|: a huge z would make any residual
+//   small, because z stands in its denominator, while w loses every digit.
+// Guarantee: what fails this is never called solved. Limit: it bounds an error in velocities, not in
+// impulses, which need not be unique.
+bool acceptable(const MatX& A, const VecX& b, const VecX& z, const VecX& w);
+
+}  // namespace fc::lcp

@@ -1,0 +1,156 @@
+// The executable: exit codes, tables and their columns (contract 1.3 and 1.5).
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string read_text(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+// The cells of a table, row by row, the header first.
+std::vector<std::vector<std::string>> read_table(const fs::path& file) {
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream lines(read_text(file));
+  for (std::string line; std::getline(lines, line);) {
+    std::vector<std::string> cells;
+    std::istringstream fields(line);
+    for (std::string cell; std::getline(fields, cell, ',');) cells.push_back(cell);
+    rows.push_back(cells);
+  }
+  return rows;
+}
+
+class Program : public testing::Test {
+ protected:
+  fs::path program_ = fs::path(FC_BIN_DIR) / "ch03_impulse_lcp";
+  fs::path scenes_ = fs::path(FC_SOURCE_DIR) / "chapters/ch03_impulse_lcp/scenes";
+  fs::path folder_ =
+      fs::path(testing::TempDir()) /
+      (std::string("fc_ch03_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+
+  void SetUp() override {
+    if (!fs::exists(program_)) GTEST_SKIP() << "the executable is not built";
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  // Runs a scene into folder_/out; standard output and error go to files there. Returns the exit code, -1 for
+  // a crash.
+  int run(const fs::path& scene, const std::string& options = "") {
+    const std::string command =
+        "'" + program_.string() + "' '" + scene.string() + "' --out '" + (folder_ / "out").string() + "' " +
+        options + " > '" + (folder_ / "stdout").string() + "' 2> '" + (folder_ / "stderr").string() + "'";
+    const int status = std::system(command.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  int run_text(const std::string& scene) {
+    std::ofstream(folder_ / "scene.yaml") << scene;
+    return run(folder_ / "scene.yaml");
+  }
+  std::vector<std::vector<std::string>> table(const char* name) { return read_table(folder_ / "out" / name); }
+  std::string errors() { return read_text(folder_ / "stderr"); }
+};
+
+using Row = std::vector<std::string>;
+
+TEST_F(Program, WritesTheTablesOfAnLcp) {
+  ASSERT_EQ(run(scenes_ / "two_contacts.yaml"), 0) << errors();
+  const auto solution = table("solution.csv");
+  ASSERT_EQ(solution.size(), 3u);
+  EXPECT_EQ(solution[0], (Row{"row", "z", "w"}));
+  EXPECT_NEAR(std::stod(solution[1][1]), 4.0 / 3, 1e-14);
+  EXPECT_NEAR(std::stod(solution[2][1]), 2.0 / 3, 1e-14);
+  const auto solvers = table("solvers.csv");
+  ASSERT_EQ(solvers.size(), 2u);
+  EXPECT_EQ(solvers[0], (Row{"solver", "status", "pivots_or_sweeps", "residual", "wall_ns"}));
+  EXPECT_EQ(solvers[1][0], "dantzig");
+  EXPECT_EQ(solvers[1][1], "solved");
+  EXPECT_LE(std::stod(solvers[1][3]), 1e-14);
+  EXPECT_TRUE(fs::exists(folder_ / "out" / "summary.json"));
+}
+
+TEST_F(Program, WritesTheContactsOfAnImpact) {
+  ASSERT_EQ(run(scenes_ / "newtons_cradle.yaml"), 0) << errors();
+  const auto contacts = table("contacts.csv");
+  ASSERT_EQ(contacts.size(), 3u);
+  EXPECT_EQ(contacts[0], (Row{"t [s]", "body_a", "body_b", "x [m]", "y [m]", "z [m]", "nx", "ny", "nz",
+                              "gap [m]", "v_before [m/s]", "v_after [m/s]", "impulse [N s]"}));
+  EXPECT_NEAR(std::stod(contacts[1][12]), 4.0 / 3, 1e-14);
+}
+
+TEST_F(Program, RunsEverySceneOfTheChapter) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(scenes_)) {
+    const bool unsolvable = entry.path().stem() == "no_solution";
+    EXPECT_EQ(run(entry.path()), unsolvable ? 3 : 0) << entry.path() << errors();
+    EXPECT_EQ(run(entry.path(), "--explain"), 0) << entry.path() << errors();
+  }
+}
+
+TEST_F(Program, EndsWith3AndWritesTheTablesIfThereIsNoSolution) {
+  EXPECT_EQ(run(scenes_ / "no_solution.yaml", "--quiet"), 3);
+  EXPECT_EQ(table("solvers.csv")[1][1], "no_solution");
+  EXPECT_EQ(table("solution.csv").size(), 3u);
+  EXPECT_TRUE(read_text(folder_ / "stdout").empty());
+  EXPECT_EQ(errors().find('\n'), errors().size() - 1);  // one line
+}
+
+TEST_F(Program, EndsWith3ForAMatrixItIsNotMadeFor) {
+  EXPECT_EQ(run_text("lcp: {A: [[1, 2], [0, 1]], b: [-1, -1]}\n"), 3);
+  EXPECT_EQ(table("solvers.csv")[1][1], "unsuited");
+}
+
+TEST_F(Program, EndsWith2ForBadInput) {
+  for (const char* scene :
+       {"lcp: {A: [[1, 2]], b: [-1]}\n", "lcp: {A: [[1]], b: [-1, 2]}\n", "lcp: {A: [[.nan]], b: [-1]}\n",
+        "lcp: {A: [[1]]}\n", "lcp: {matrix: none.mtx, vector: none.mtx}\n", "contacts: []\n", ""}) {
+    EXPECT_EQ(run_text(scene), 2) << scene;
+    EXPECT_EQ(errors().find('\n'), errors().size() - 1) << scene << errors();
+  }
+}
+
+TEST_F(Program, ReadsMatrixMarketFilesAndComparesWithTheSolution) {
+  std::ofstream(folder_ / "A.mtx")
+      << "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 2\n2 1 -1\n2 2 2\n";
+  std::ofstream(folder_ / "b.mtx") << "%%MatrixMarket matrix array real general\n2 1\n-2\n0\n";
+  std::ofstream(folder_ / "z.mtx")
+      << "%%MatrixMarket matrix array real general\n2 1\n1.3333333333333333\n0.6666666666666666\n";
+  const std::string lcp = "lcp: {matrix: A.mtx, vector: b.mtx, solution: z.mtx}\n";
+  EXPECT_EQ(run_text(lcp), 0) << errors();
+  EXPECT_NE(read_text(folder_ / "stdout").find("largest difference of w"), std::string::npos);
+  std::ofstream(folder_ / "b.mtx") << "%%MatrixMarket matrix array real general\n3 1\n-2\n0\n1\n";
+  EXPECT_EQ(run_text(lcp), 2);
+  std::ofstream(folder_ / "b.mtx") << "%%MatrixMarket matrix array real general\n2 1\n-2\nnan\n";
+  EXPECT_EQ(run_text(lcp), 2);
+  EXPECT_NE(errors().find("b.mtx:4:1"), std::string::npos) << errors();
+}
+
+TEST_F(Program, WritesTheSameBytesAgain) {
+  ASSERT_EQ(run(scenes_ / "box_on_floor.yaml"), 0);
+  const std::string solution = read_text(folder_ / "out/solution.csv"),
+                    contacts = read_text(folder_ / "out/contacts.csv");
+  ASSERT_EQ(run(scenes_ / "box_on_floor.yaml"), 0);
+  EXPECT_EQ(read_text(folder_ / "out/solution.csv"), solution);
+  EXPECT_EQ(read_text(folder_ / "out/contacts.csv"), contacts);
+}
+
+TEST_F(Program, LeavesBodiesThatDoNotApproachAlone) {
+  ASSERT_EQ(run(scenes_ / "newtons_cradle.yaml", "--set bodies.0.velocity=[-1,0,0]"), 0) << errors();
+  EXPECT_EQ(table("contacts.csv").size(), 1u);
+  EXPECT_EQ(table("solution.csv")[1][1], "0");
+}
+
+}  // namespace
