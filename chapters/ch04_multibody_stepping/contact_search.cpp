@@ -1,0 +1,119 @@
+#include "ch04_multibody_stepping/contact_search.hpp"
+
+#include <algorithm>
+
+#include "ch02_hull_hierarchy/features.hpp"
+
+namespace fc::world {
+namespace {
+
+constexpr double kRoundingTerms = 64;  // a certified gap below so many rounding terms cannot be spent
+
+// A gap of so little of the tolerance was halved seven times by impacts one upon the other. To follow a pair
+// that slides or turns in such a gap takes steps that shrink with it, a million below 1e-12 m; an impact that
+// still comes in there is one of a pile. Consequence: what comes to rest is held from a gap of 1e-8 m on,
+// with the default tolerance.
+constexpr double kStallShare = 0.01;
+
+// Balls around the bodies that stay apart until the frame's end: no need to look closer.
+bool out_of_reach(const World& world, const Pair& pair, const ca::Motion& a, const ca::Motion& b,
+                  double left) {
+  const double reach =
+      world.shapes[world.bodies[pair.a].shape].reach + world.shapes[world.bodies[pair.b].shape].reach;
+  const double travel =
+      left * ((b.velocity - a.velocity).norm() + 0.5 * left * (b.acceleration - a.acceleration).norm());
+  return (b.position - a.position).norm() > reach + travel + world.tolerance;
+}
+
+bool immovable(const Body& body) {
+  return body.held || body.state.is_static();
+}
+
+// The contacts of one pair at time `now`; none if it does not touch.
+std::vector<lcp::Contact> contacts_of(const World& world, const Pair& pair, double now) {
+  const ca::Motion motion_a = world.motion(pair.a, now), motion_b = world.motion(pair.b, now);
+  if (out_of_reach(world, pair, motion_a, motion_b, 0)) return {};
+  const ca::PairPose pose(motion_a, motion_b, 0);
+  std::vector<lcp::Contact> contacts;
+  for (const ca::FeaturePair& feature : hulls::contact_features(
+           world.model_of(pair.a), world.model_of(pair.b), pose, motion_a.position, world.tolerance))
+    contacts.push_back({pair.a, pair.b, 0.5 * (feature.point_a + feature.point_b), feature.normal,
+                        feature.gap, world.restitution_of(pair.a, pair.b)});
+  return contacts;
+}
+
+}  // namespace
+
+void find_next_contact(World& world, Pair& pair, double now, double dt, StepReport& report) {
+  pair.known = true;
+  pair.contact = pair.stalled = false;
+  pair.time = dt;
+  if (immovable(world.bodies[pair.a]) && immovable(world.bodies[pair.b])) return;
+  const ca::Motion motion_a = world.motion(pair.a, now), motion_b = world.motion(pair.b, now);
+  if (out_of_reach(world, pair, motion_a, motion_b, dt - now)) return;
+
+  const hulls::Model& model_a = world.model_of(pair.a);
+  const hulls::Model& model_b = world.model_of(pair.b);
+  const ca::PairPose pose(motion_a, motion_b, 0);
+  const double gap = hulls::model_distance(model_a, model_b, pose, world.tolerance).lower;
+  report.min_gap = std::min(report.min_gap, gap);
+  const double smallest = kRoundingTerms * ca::rounding_term(model_a.convex(model_a.tree.nodes[0]),
+                                                             model_b.convex(model_b.tree.nodes[0]), pose);
+  hulls::ReachOptions options;
+  options.interval = dt - now;
+  options.tolerance = world.tolerance;
+  options.max_pairs = world.max_pairs;
+  const double spend = gap > world.tolerance ? world.tolerance : gap;
+  options.target = gap > smallest ? 0.5 * spend : gap - smallest;
+  options.slack = 0.25 * (gap > smallest ? spend : smallest);
+  const hulls::Reach reach = hulls::first_reach(model_a, motion_a, model_b, motion_b, options);
+  ++report.queries;
+  report.node_pairs += reach.node_pairs;
+  if (reach.status == hulls::Reach::Status::clear) return;
+  const bool limit = reach.status == hulls::Reach::Status::limit;
+  const bool little = gap <= std::max(smallest, kStallShare * world.tolerance);
+  pair.stalled = limit ? little : little || !(now + reach.time > now);
+  pair.contact = !limit || pair.stalled;
+  pair.time = pair.stalled ? now : now + reach.time;
+  FC_CHECK(pair.contact || pair.time > now,
+           "the search for the next contact reached its limit without progress");
+}
+
+Island touching_island(const World& world, const Pair& pair, double now, StepReport& report) {
+  Island island;
+  std::vector<int> open;
+  std::vector<char> seen_pair(world.pairs.size(), 0);
+  const auto add_body = [&](int body) {
+    if (world.bodies[body].state.is_static()) return;
+    if (std::find(island.bodies.begin(), island.bodies.end(), body) != island.bodies.end()) return;
+    island.bodies.push_back(body);
+    open.push_back(body);
+  };
+  add_body(pair.a);
+  add_body(pair.b);
+  while (!open.empty()) {
+    const int body = open.back();
+    open.pop_back();
+    for (const int p : world.pairs_of[body]) {
+      if (seen_pair[p]) continue;
+      seen_pair[p] = 1;
+      const std::vector<lcp::Contact> contacts = contacts_of(world, world.pairs[p], now);
+      if (contacts.empty()) continue;
+      island.contacts.insert(island.contacts.end(), contacts.begin(), contacts.end());
+      add_body(world.pairs[p].a);
+      add_body(world.pairs[p].b);
+    }
+  }
+  std::sort(island.bodies.begin(), island.bodies.end());
+  std::stable_sort(island.contacts.begin(), island.contacts.end(),
+                   [](const lcp::Contact& x, const lcp::Contact& y) {
+                     return x.body_a != y.body_a ? x.body_a < y.body_a : x.body_b < y.body_b;
+                   });
+  for (const lcp::Contact& contact : island.contacts) {
+    report.min_gap = std::min(report.min_gap, contact.gap);
+    report.max_penetration = std::max(report.max_penetration, -contact.gap);
+  }
+  return island;
+}
+
+}  // namespace fc::world

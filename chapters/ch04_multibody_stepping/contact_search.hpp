@@ -1,0 +1,26 @@
+// Where chapters 1 and 2 enter a step: the next contact of a pair, and all that touches at one instant.
+#pragma once
+
+#include "ch04_multibody_stepping/world.hpp"
+
+namespace fc::world {
+
+// Finds when the pair next reaches its gap, from `now` until dt (s in the frame), and writes it to the pair.
+//
+// The gap rule: a pair stops at half the tolerance; one that is within the tolerance already (it has just
+// collided) may spend half of the gap that it has left, so that it can part, or slide, and can never reach
+// zero. A pair whose gap is below a hundredth of the tolerance has nothing left to spend: it is clear if it
+// provably keeps half of its gap (below 64 rounding terms: all of it, but for those), else it is stalled.
+void find_next_contact(World& world, Pair& pair, double now, double dt, StepReport& report);
+
+// Bodies that are connected by touching pairs, and the contacts between them.
+struct Island {
+  std::vector<int> bodies;  // that can move, ascending
+  std::vector<lcp::Contact> contacts;
+};
+
+// Everything that touches (gap within the tolerance) at time `now`, connected to the given pair over bodies
+// that can move.
+Island touching_island(const World& world, const Pair& pair, double now, StepReport& report);
+
+}  // namespace fc::world

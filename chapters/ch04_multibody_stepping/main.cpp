@@ -1,0 +1,90 @@
+// Chapter 4: bodies stepped from contact to contact inside frames of fixed length.
+#include <fmt/format.h>
+
+#include <chrono>
+
+#include "ch04_multibody_stepping/record.hpp"
+#include "common/program.hpp"
+
+namespace {
+
+using namespace fc;
+
+std::string declared(const Scene& scene, const std::string& key) {
+  const auto mark = scene.mark(key);
+  return mark ? "declared at " + mark->text() : "";
+}
+
+std::vector<Effect> explain(const Scene& scene) {
+  std::vector<Effect> effects;
+  effects.push_back({"collision", "derived: the scene has bodies",
+                     "continuous collision detection; one LCP per instant", 1});
+  effects.push_back({"rotation", "derived: bodies are solid",
+                     "constant spin between impacts: without a gyroscopic effect not the angular momentum",
+                     0});
+  if (scene.gravity)
+    effects.push_back(
+        {"gravity", declared(scene, "gravity"), "free fall in closed form inside every motion", 0});
+  bool restitution = scene.restitution.has_value();
+  std::string where = declared(scene, "restitution");
+  for (const ShapeSpec& shape : scene.shapes)
+    if (shape.restitution && !restitution) {
+      restitution = true;
+      where = "declared by shape '" + shape.name + "' at " + shape.where.text();
+    }
+  effects.push_back({"restitution", restitution ? where : "absent: 0, bodies do not bounce",
+                     "the right-hand side of the LCP", 0});
+  return effects;
+}
+
+int run(const Scene& scene, const RunContext& context, Summary& summary) {
+  const auto start = std::chrono::steady_clock::now();
+  world::World world = world::build_world(scene);
+  const std::int64_t built_ns = (std::chrono::steady_clock::now() - start) / std::chrono::nanoseconds(1);
+  summary.add("bodies", static_cast<std::int64_t>(world.bodies.size()));
+  for (std::size_t i = 0; i < world.shapes.size(); ++i) {
+    const Shape& shape = world.shapes[i];
+    if (shape.kind == Shape::Kind::mesh) {
+      summary.add("shape " + shape.name, shape.report.text());
+      summary.add("shape " + shape.name + ", convex pieces",
+                  static_cast<std::int64_t>(world.models[i].pieces.start.size()) - 1);
+    }
+    summary.add("shape " + shape.name + ", mass from", shape.mass_source);
+  }
+  summary.add_time("time to build shapes and hierarchies", built_ns);
+
+  const StepSpec& step = *scene.step;
+  world::Recorder recorder(context);
+  recorder.start(world);
+  Progress progress("frames", step.frames, context.quiet);
+  for (int frame = 0; frame < step.frames; ++frame) {
+    const double t = frame * step.dt;
+    const world::StepReport report = world::step(
+        world, step.dt, [&](const world::ImpactRecord& impact) { recorder.impact(t + impact.time, impact); });
+    recorder.frame(world, frame + 1, (frame + 1) * step.dt, report);
+    progress.update(frame + 1);
+  }
+  recorder.close();
+  if (recorder.first_impact()) summary.add("first impact at", *recorder.first_impact(), "s");
+  world::summarize(scene, world, recorder.reports(), summary);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Chapter chapter;
+  chapter.number = 4;
+  chapter.name = "ch04_multibody_stepping";
+  chapter.purpose =
+      "Moves rigid bodies from contact to contact inside frames of fixed length: no collision is missed, all "
+      "contacts of "
+      "an instant are solved together. First true form: every pair of bodies is looked at in every frame, "
+      "and bodies that "
+      "come to rest are held (lost_time); resting contact comes with chapter 5, friction with chapter 6.";
+  chapter.example =
+      "build/bin/ch04_multibody_stepping chapters/ch04_multibody_stepping/scenes/two_bunnies.yaml --poses";
+  chapter.explain = explain;
+  chapter.run = run;
+  return run_program(argc, argv, chapter);
+}

@@ -1,0 +1,97 @@
+// Many bodies in one world: the data that a step works on.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "ch02_hull_hierarchy/advance.hpp"
+#include "ch03_impulse_lcp/impact.hpp"
+#include "common/scene.hpp"
+#include "common/shape.hpp"
+
+namespace fc::world {
+
+// A body and the time within the frame, in s, at which its state stands. Between its own events a body is not
+// touched: its state at another time follows from its motion (constant spin; constant velocity, or exact free
+// fall).
+struct Body {
+  RigidBody state;
+  double time = 0;
+  int shape = 0;
+  bool held = false;  // stays where it is until the frame's end, with its velocities: see step()
+};
+
+// Two bodies of which at least one can move, and what is known of their next contact in this frame.
+struct Pair {
+  int a = 0, b = 0;
+  double time = 0;       // s in the frame: nothing happens before
+  bool known = false;    // `time` holds for the bodies' present motions
+  bool contact = false;  // at `time` the pair reaches its gap (else it is clear until then)
+  bool stalled = false;  // it has no gap left to spend, and closes in within the frame
+};
+
+struct World {
+  std::vector<Shape> shapes;
+  std::vector<hulls::Model> models;  // one for each shape
+  std::vector<Body> bodies;
+  std::vector<Pair> pairs;                 // in order of (a, b)
+  std::vector<std::vector<int>> pairs_of;  // for each body, the numbers of its pairs
+  Vec3 gravity = Vec3::Zero();             // m/s^2; zero if the scene does not ask for any
+  double tolerance = 1e-6;                 // m
+  std::int64_t max_pairs = 1'000'000;      // of nodes, for one search; it then goes on from where it got to
+
+  const hulls::Model& model_of(int body) const { return models[bodies[body].shape]; }
+  double restitution_of(int a, int b) const {  // a pair takes the larger of its two shapes' values
+    return std::max(shapes[bodies[a].shape].restitution, shapes[bodies[b].shape].restitution);
+  }
+  // The motion of a body from a time in the frame on; a held or static body stands still.
+  ca::Motion motion(int body, double time) const;
+  // The body's state moved to a time in the frame.
+  RigidBody state_at(int body, double time) const;
+};
+
+// Throws InputError: shapes (see build_shapes), and two bodies that overlap by more than the tolerance.
+World build_world(const Scene& scene);
+
+// What one step saw and did.
+struct StepReport {
+  int contacts = 0;  // points given to the solver
+  int impacts = 0;   // points with an impulse
+  int lcp_rows = 0;
+  int solves = 0;
+  double lcp_residual = 0;  // the worst
+  double min_gap = 0;       // m, the smallest certified gap of the pairs that were examined; infinite if none
+  double max_penetration = 0;  // m
+  double lost_time = 0;        // s, the longest that a body was held
+  double momentum_error = 0;   // the worst change at an impact, of sum |p| and of sum (|x x p| + |I w|)
+  double energy_error =
+      0;  // J, the worst difference between the change at an impact and what the law predicts
+  double energy_gain = 0;  // J, the largest gain of kinetic energy at an impact
+  std::int64_t queries = 0, node_pairs = 0, ccd_ns = 0, lcp_ns = 0, step_ns = 0;
+};
+
+// One contact with an impulse, for contacts.csv.
+struct ImpactRecord {
+  double time = 0;  // s in the frame
+  lcp::Contact contact;
+  lcp::Impulse impulse;
+};
+using OnImpact = std::function<void(const ImpactRecord&)>;
+// Called after each solved instant, with the time in the frame: for tests that look between frames.
+using OnInstant = std::function<void(const World&, double time)>;
+
+// One frame of dt seconds (> 0): from contact to contact.
+//
+// The earliest contact of all pairs is found by conservative advancement; every touching point of the bodies
+// that are connected to it is solved as one LCP; the pairs of the bodies whose motion changed are asked
+// again; and so on until no contact is left in the frame. Guarantee: at no time do two bodies come nearer
+// than a positive gap if they started so (those that start touching or overlapping by rounding come no nearer
+// than 64 rounding terms of it). Where impacts pile up so that a pair has less than a hundredth of the
+// tolerance left to spend, its island is held until the frame's end: it stays where it is, keeps its
+// velocities, and the time that it did not live is reported as lost_time. Throws NumericalFailure if an LCP
+// cannot be solved, or a search reaches its limit without progress; std::invalid_argument for a dt that is
+// not finite and > 0, and then nothing has moved.
+StepReport step(World& world, double dt, const OnImpact& on_impact = {}, const OnInstant& on_instant = {});
+
+}  // namespace fc::world
