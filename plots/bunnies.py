@@ -1,0 +1,220 @@
+#!/usr/bin/env python3
+"""Draws a run of mesh bodies at four times, around its first two impacts: bunnies.py RUN_DIR
+
+Needs poses.csv (the run's --poses), contacts.csv and the bodies' mesh. The renderer is a z-buffer in numpy, with no
+perspective, so that lengths compare."""
+
+from pathlib import Path
+
+import matplotlib.patheffects as effects
+import numpy as np
+
+from style import BLUE, ORANGE, PlotError, Table, plot_main, plt
+
+MESH = Path("/usr/share/glmark2/models/bunny.obj")  # Debian's package glmark2-data
+WIDTH, HEIGHT, SAMPLES = 560, 290, 3  # of a panel in pixels; samples per pixel along each axis
+LIGHTS = ((np.array([-0.5, -0.5, 0.75]), 0.75), (np.array([0.8, -0.5, 0.1]), 0.22))  # to the light; strength
+AMBIENT = 0.22
+TITLE = 30  # pixels above each panel
+LEVELS = 80  # of each colour: too fine to see, and a third less to store
+
+
+def load_obj(file: Path) -> tuple[np.ndarray, np.ndarray]:
+    """Vertices (#V by 3, metres) and triangles (#F by 3) of a Wavefront OBJ."""
+    if not file.exists():
+        raise PlotError(f"{file}: no such mesh; install Debian's package glmark2-data")
+    rows = [line.split() for line in file.read_text().splitlines()]
+    vertices = np.array([row[1:4] for row in rows if row and row[0] == "v"], float)
+    triangles = np.array([[corner.split("/")[0] for corner in row[1:4]] for row in rows if row and row[0] == "f"], int)
+    return vertices, triangles - 1
+
+
+def center_of_mass(vertices: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """Of the solid inside: the sum over the tetrahedra that the triangles make with the origin."""
+    a, b, c = (vertices[triangles[:, k]] for k in range(3))
+    volume = np.einsum("ij,ij->i", a, np.cross(b, c))
+    return (volume[:, None] * (a + b + c)).sum(axis=0) / (4 * volume.sum())
+
+
+def vertex_normals(vertices: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    a, b, c = (vertices[triangles[:, k]] for k in range(3))
+    face = np.cross(b - a, c - a)
+    normals = np.stack([np.bincount(triangles.ravel(), np.repeat(face[:, k], 3), len(vertices)) for k in range(3)], 1)
+    return normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-300)
+
+
+def rotation(q: np.ndarray) -> np.ndarray:
+    w, x, y, z = q / np.linalg.norm(q)
+    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+                     [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+                     [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
+
+
+def turned(spin: np.ndarray, time: float) -> np.ndarray:
+    """The rotation by a constant spin (rad/s) for a time (s)."""
+    angle = np.linalg.norm(spin) * time
+    axis = spin / np.linalg.norm(spin) if angle else np.array([0, 0, 1.0])
+    return rotation(np.concatenate([[np.cos(angle / 2)], np.sin(angle / 2) * axis]))
+
+
+class Poses:
+    """The bodies of a run at any time: from the end of the frame before, with the velocities there. Exact up to the
+    first impact of a frame where there is no gravity."""
+
+    def __init__(self, table: Table, center: np.ndarray):
+        self.times = np.unique(table["t"])
+        self.bodies = int(table["body"].max()) + 1
+        columns = table.vectors("px", "py", "pz", "qw", "qx", "qy", "qz", "vx", "vy", "vz", "wx", "wy", "wz")
+        order = np.lexsort((table["body"], table["t"]))
+        if len(order) != len(self.times) * self.bodies:
+            raise PlotError(f"{table.file}: not every body has a row in every frame")
+        self.rows = columns[order].reshape(len(self.times), self.bodies, 13)
+        self.center = center
+
+    def at(self, time: float) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
+        """Of each body at a time: the position of its shape's frame, its rotation, its velocity."""
+        frame = max(0, np.searchsorted(self.times, time, side="left") - 1) if time > self.times[0] else 0
+        later = time - self.times[frame]
+        result = []
+        for row in self.rows[frame]:
+            start = rotation(row[3:7])
+            end = turned(row[10:13], later) @ start
+            result.append((row[:3] + start @ self.center + later * row[7:10] - end @ self.center, end, row[7:10]))
+        return result
+
+
+def blurred(image: np.ndarray, radius: int) -> np.ndarray:
+    """Three box blurs along each axis: nearly a Gaussian."""
+    n = 2 * radius + 1
+    for axis in (0, 1) * 3:
+        padded = np.pad(image, [(radius + 1, radius) if k == axis else (0, 0) for k in (0, 1)], mode="edge")
+        total = np.cumsum(padded, axis=axis)
+        image = (total.take(range(n, total.shape[axis]), axis) - total.take(range(total.shape[axis] - n), axis)) / n
+    return image
+
+
+def rasterize(corners: np.ndarray, colors: np.ndarray, width: int, height: int) -> tuple[np.ndarray, np.ndarray]:
+    """Colours (height by width by 3) and depths of the nearest of many small triangles, given by their corners
+    (#F by 3 by (x, y, depth); pixels, larger is nearer) and the colours there (#F by 3 by 3)."""
+    (a, b, c) = (corners[:, k, :2] for k in range(3))
+    area = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
+    keep = area > 1e-12  # those that face the viewer
+    corners, colors, a, b, c, area = (array[keep] for array in (corners, colors, a, b, c, area))
+    low = np.ceil(np.minimum(np.minimum(a, b), c)).astype(int)
+    size = np.floor(np.maximum(np.maximum(a, b), c)).astype(int) - low + 1
+    fragments = []
+    # Visit one pixel of every triangle's bounding box at once, then the next one: few rounds, for triangles are small.
+    for dy in range(size[:, 1].max()):
+        for dx in range(size[size[:, 1] > dy, 0].max()):
+            some = np.flatnonzero((size[:, 0] > dx) & (size[:, 1] > dy))
+            p = low[some] + (dx, dy)
+
+            def edge(u: np.ndarray, v: np.ndarray) -> np.ndarray:
+                u, v = u[some], v[some]
+                return (v[:, 0] - u[:, 0]) * (p[:, 1] - u[:, 1]) - (v[:, 1] - u[:, 1]) * (p[:, 0] - u[:, 0])
+
+            weights = np.stack([edge(b, c), edge(c, a), edge(a, b)], axis=1) / area[some][:, None]
+            inside = (weights >= 0).all(axis=1) & (p >= 0).all(axis=1) & (p < (width, height)).all(axis=1)
+            some, p, weights = some[inside], p[inside], weights[inside]
+            fragments.append(np.column_stack([p[:, 1] * width + p[:, 0], (weights * corners[some, :, 2]).sum(axis=1),
+                                              np.einsum("ij,ijk->ik", weights, colors[some])]))
+    fragment = np.concatenate(fragments)
+    fragment = fragment[np.lexsort((fragment[:, 1], fragment[:, 0]))]  # by pixel, the nearest last
+    fragment = fragment[np.append(np.diff(fragment[:, 0]) > 0, True)]
+    image, depth = np.ones((height * width, 3)), np.full(height * width, -np.inf)
+    pixel = fragment[:, 0].astype(int)
+    image[pixel], depth[pixel] = fragment[:, 2:], fragment[:, 1]
+    return image.reshape(height, width, 3), depth.reshape(height, width)
+
+
+def shade(normals: np.ndarray, color: str) -> np.ndarray:
+    base = np.array([int(color[k:k + 2], 16) / 255 for k in (1, 3, 5)])
+    light = np.full(len(normals), AMBIENT)
+    for direction, strength in LIGHTS:
+        light += strength * np.clip((normals @ direction / np.linalg.norm(direction) + 0.25) / 1.25, 0, 1)
+    return np.clip(light[:, None] * base + 0.12 * np.clip(light - 0.7, 0, 1)[:, None], 0, 1)
+
+
+def render(bodies: list, camera: np.ndarray, middle: np.ndarray, scale: float) -> np.ndarray:
+    """A picture of bodies (vertices, normals, triangles, colour); camera: rows right, up, towards the viewer."""
+    width, height = SAMPLES * WIDTH, SAMPLES * HEIGHT
+    corners, colors = [], []
+    for vertices, normals, triangles, color in bodies:
+        pixels = ((vertices - middle) @ camera.T) * scale * SAMPLES + (width / 2, height / 2, 0)
+        corners.append(pixels[triangles])
+        colors.append(shade(normals, color)[triangles])
+    image, depth = rasterize(np.concatenate(corners), np.concatenate(colors), width, height)
+    # Where the surroundings are nearer, less light comes in: darken creases by the blurred depth (Luft et al. 2006).
+    hit = np.isfinite(depth)
+    radius = width // 90
+    around = blurred(np.where(hit, depth, 0), radius) / np.maximum(blurred(hit.astype(float), radius), 1e-9)
+    image[hit] *= (1 - np.clip((around - depth)[hit] / (0.12 * height), 0, 0.6))[:, None]
+    return image.reshape(HEIGHT, SAMPLES, WIDTH, SAMPLES, 3).mean(axis=(1, 3))
+
+
+def instants(contacts: Table, poses: Poses) -> list[tuple[float, str, np.ndarray]]:
+    """The four times to draw: what they are, and the contact points then."""
+    points, times = contacts.vectors("x", "y", "z"), contacts["t"]
+    first, last, none = poses.times[0], poses.times[-1], np.zeros((0, 3))
+    frame = np.searchsorted(poses.times, times)
+    impacts = [times[frame == k].min() for k in np.unique(frame)][:2]  # the first two frames with an impact
+    if len(impacts) == 0:
+        return [(t, "", none) for t in np.linspace(first, last, 4)]
+    between = (impacts[0] + (impacts[1] if len(impacts) > 1 else last)) / 2
+    at = [points[times == impact] for impact in impacts]
+    return [(first, "the start", none), (impacts[0], "first impact", at[0]), (between, "apart", none),
+            (impacts[1], "second impact", at[1]) if len(impacts) > 1 else (last, "the end", none)]
+
+
+def draw(run: Path, mesh: Path, scale: float) -> plt.Figure:
+    vertices, triangles = load_obj(mesh)
+    vertices *= scale
+    normals = vertex_normals(vertices, triangles)
+    poses = Poses(Table(run / "poses.csv"), center_of_mass(vertices, triangles))
+    panels = instants(Table(run / "contacts.csv"), poses)
+
+    # Look from the side, a little from above, at the line between the first two bodies.
+    across = poses.at(panels[0][0])[1][0] - poses.at(panels[0][0])[0][0] if poses.bodies > 1 else np.array([1.0, 0, 0])
+    right = np.array([across[0], across[1], 0]) / (np.hypot(across[0], across[1]) or 1)
+    back = np.array([right[1], -right[0], 0])
+    toward = np.cos(0.3) * back + np.sin(0.3) * np.array([0, 0, 1])
+    camera = np.stack([right, np.cross(toward, right), toward])
+
+    placed = [[(p + vertices @ r.T, normals @ r.T) for p, r, _ in poses.at(time)] for time, _, _ in panels]
+    seen = np.concatenate([v for panel in placed for v, _ in panel]) @ camera.T
+    middle = camera.T @ ((seen.min(axis=0) + seen.max(axis=0)) / 2)
+    zoom = min(0.94 * np.array([WIDTH, HEIGHT]) / np.ptp(seen, axis=0)[:2])
+
+    def on_panel(points: np.ndarray) -> np.ndarray:
+        return ((points - middle) @ camera.T * zoom)[..., :2] + (WIDTH / 2, HEIGHT / 2)
+
+    size, dpi = np.array([2 * WIDTH, 2 * (HEIGHT + TITLE)]), plt.rcParams["savefig.dpi"]
+    figure = plt.figure(figsize=size / dpi)
+    figure.set_layout_engine("none")  # the panels stand at exact pixels
+    fastest = max(np.linalg.norm(v) for time, _, _ in panels for _, _, v in poses.at(time)) or 1
+    for k, (bodies, (time, title, points)) in enumerate(zip(placed, panels)):
+        corner = np.array([k % 2 * WIDTH, (1 - k // 2) * (HEIGHT + TITLE)])
+        panel = figure.add_axes((*(corner / size), *(np.array([WIDTH, HEIGHT]) / size)))  # a pixel is a pixel
+        colored = [(v, n, triangles, (ORANGE, BLUE)[body % 2]) for body, (v, n) in enumerate(bodies)]
+        image = np.round(render(colored, camera, middle, zoom) * LEVELS) / LEVELS
+        panel.imshow(image, origin="lower", interpolation="none", extent=(0, WIDTH, 0, HEIGHT))
+        panel.plot(*on_panel(points).T, "o", color="#CC0000", markersize=7, markeredgecolor="white")
+        for position, turn, velocity in poses.at(time) if not len(points) else []:
+            start = position + turn @ poses.center
+            tip = on_panel(start + 0.6 * np.ptp(vertices, axis=0).max() * velocity / fastest)
+            if np.linalg.norm(tip - on_panel(start)) > 12:
+                arrow = panel.annotate("", tip, on_panel(start), arrowprops={
+                    "arrowstyle": "-|>", "color": "#222222", "linewidth": 2, "mutation_scale": 16, "shrinkA": 0})
+                arrow.arrow_patch.set_path_effects([effects.withStroke(linewidth=5, foreground="white")])
+        count = f", {len(points)} contact{'s' * (len(points) > 1)}" if len(points) else ""
+        panel.text(10, HEIGHT + 6, f"t = {time:.3f} s", weight="bold")
+        panel.text(122, HEIGHT + 6, title + count)
+        panel.set(xlim=(0, WIDTH), ylim=(0, HEIGHT))
+        panel.axis("off")
+    return figure
+
+
+if __name__ == "__main__":
+    plot_main(draw, "bunnies", __doc__,
+              mesh={"type": Path, "default": MESH, "help": "the bodies' OBJ; default: %(default)s"},
+              scale={"type": float, "default": 1.0, "help": "of the mesh; default: 1"})

@@ -1,0 +1,166 @@
+"""What every plot shares: colours, reading a run's tables, saving the same bytes each time, one-line errors."""
+
+import argparse
+import csv
+import json
+import sys
+from pathlib import Path
+from typing import Callable
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
+
+# Okabe and Ito's palette: told apart with any kind of colour vision.
+BLUE, ORANGE, GREEN, RED, SKY, PURPLE, GREY = "#0072B2 #E69F00 #009E73 #D55E00 #56B4E9 #CC79A7 #767676".split()
+
+plt.rcParams.update({
+    "figure.facecolor": "white",
+    "figure.constrained_layout.use": True,
+    "figure.constrained_layout.h_pad": 0.09,
+    "figure.constrained_layout.w_pad": 0.09,
+    "font.size": 9.5,
+    "axes.titlesize": 10,
+    "axes.titlelocation": "left",
+    "axes.titleweight": "bold",
+    "axes.titlepad": 8,
+    "axes.labelcolor": "#333333",
+    "axes.edgecolor": "#999999",
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "grid.color": "#E6E6E6",
+    "grid.linewidth": 0.7,
+    "axes.axisbelow": True,
+    "xtick.color": "#555555",
+    "ytick.color": "#555555",
+    "lines.linewidth": 1.6,
+    "legend.frameon": False,
+    "legend.fontsize": 8.5,
+    "axes.formatter.use_mathtext": True,
+    "axes.formatter.limits": (-3, 5),
+    "svg.hashsalt": "first contact",  # the ids in an SVG then are the same in every run
+    "svg.fonttype": "none",  # text stays text
+    "savefig.dpi": 130,
+})
+
+
+class PlotError(Exception):
+    """What stands in the way of a plot; its one line says what is wrong."""
+
+
+class Table:
+    """A CSV table of a run: table["kinetic"] is the column `kinetic [J]` as numbers, table.text(...) as it stands."""
+
+    def __init__(self, file: Path):
+        self.file = file
+        try:
+            with file.open(newline="", encoding="utf-8") as stream:
+                rows = [row for row in csv.reader(stream) if row]
+        except FileNotFoundError:
+            raise PlotError(f"{file}: no such file; run a chapter with --out {file.parent} first") from None
+        except (OSError, UnicodeDecodeError, csv.Error) as error:
+            raise PlotError(f"{file}: cannot be read as a table: {error}") from None
+        if not rows:
+            raise PlotError(f"{file}: empty; expected a header row")
+        self.names = [name.split("[")[0].strip() for name in rows[0]]
+        self.rows = rows[1:]  # possibly none: a run without contacts
+        for number, row in enumerate(self.rows, start=2):
+            if len(row) != len(self.names):
+                raise PlotError(f"{file}:{number}: {len(row)} cells, but the header names {len(self.names)} columns")
+
+    def __len__(self) -> int:
+        return len(self.rows)
+
+    def text(self, name: str) -> list[str]:
+        if name not in self.names:
+            raise PlotError(f"{self.file}: no column '{name}'; it has: {', '.join(self.names)}")
+        index = self.names.index(name)
+        return [row[index] for row in self.rows]
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        cells = self.text(name)
+        try:
+            return np.array([float(cell) for cell in cells])
+        except ValueError as error:
+            raise PlotError(f"{self.file}: column '{name}': {error}") from None
+
+    def vectors(self, *names: str) -> np.ndarray:
+        """Several columns side by side, one row each per row of the table."""
+        return np.stack([self[name] for name in names], axis=1)
+
+
+def table_if_there(file: Path) -> Table | None:
+    return Table(file) if file.exists() else None
+
+
+def read_summary(run: Path) -> dict:
+    """The run's summary.json; nothing if it has none."""
+    file = run / "summary.json"
+    if not file.exists():
+        return {}
+    try:
+        return json.loads(file.read_text(encoding="utf-8"))
+    except ValueError as error:
+        raise PlotError(f"{file}: {error}") from None
+
+
+def tolerance_of(run: Path) -> float | None:
+    """The collision tolerance of the run, as its summary states it."""
+    value = read_summary(run).get("entries", {}).get("tolerance", {}).get("value")
+    return value if isinstance(value, float) else None
+
+
+def log_limits(axes: plt.Axes, *series: np.ndarray) -> None:
+    """A logarithmic y axis around what of the series can stand on it."""
+    values = np.concatenate([s[np.isfinite(s) & (s > 0)] for s in series])
+    axes.set_yscale("log")
+    if len(values):
+        axes.set_ylim(10 ** np.floor(np.log10(values.min()) - 0.1), 10 ** np.ceil(np.log10(values.max()) + 0.1))
+
+
+def say(axes: plt.Axes, text: str) -> None:
+    """Writes a remark into a panel."""
+    axes.text(0.5, 0.5, text, transform=axes.transAxes, ha="center", va="center", color=GREY, fontsize=8.5)
+
+
+def nothing(axes: plt.Axes, text: str) -> None:
+    """Says why a panel has nothing to draw."""
+    axes.grid(False)
+    axes.set_yticks([])
+    say(axes, text)
+
+
+def plot_main(draw: Callable[..., plt.Figure], name: str, description: str, **more: dict) -> None:
+    """The whole of a plot script: options, drawing, saving, errors (exit code 2). `more` are options of its own, which
+    `draw` gets by name."""
+    parser = argparse.ArgumentParser(description=description)
+    parser.add_argument("run", type=Path, metavar="RUN_DIR", help="the folder that the run wrote (its --out)")
+    parser.add_argument("--out", type=Path, metavar="FILE",
+                        help=f"the picture, .svg, .png or .pdf; default: both RUN_DIR/{name}.svg and {name}.png")
+    for option, settings in more.items():
+        parser.add_argument(f"--{option}", metavar=option.upper(), **settings)
+    options = parser.parse_args()
+    try:
+        if not options.run.is_dir():
+            raise PlotError(f"{options.run}: no such folder")
+        figure = draw(options.run, **{option: getattr(options, option) for option in more})
+        for file in [options.out] if options.out else [options.run / f"{name}.svg", options.run / f"{name}.png"]:
+            save(figure, file)
+    except PlotError as error:
+        print(f"{name}.py: {error}", file=sys.stderr)
+        sys.exit(2)
+
+
+def save(figure: plt.Figure, file: Path) -> None:
+    """Writes the picture without a date or a version in it."""
+    metadata = {".svg": {"Date": None, "Creator": None}, ".pdf": {"CreationDate": None}, ".png": {"Software": None}}
+    if file.suffix not in metadata:
+        raise PlotError(f"{file}: unknown kind of picture; use .svg, .png or .pdf")
+    try:
+        figure.savefig(file, metadata=metadata[file.suffix])
+    except OSError as error:
+        raise PlotError(f"{file}: cannot be written: {error.strerror}") from None
+    print(file)
