@@ -106,8 +106,8 @@ int run_with(const Options& options, const Chapter& chapter) {
     return done;
   }
   const std::filesystem::path default_dir = std::filesystem::path("out") / file_name_from(scene.name);
-  const RunContext context{options.out.value_or(default_dir), options.certificate, options.poses,
-                           options.quiet};
+  const RunContext context{chapter.name, options.out.value_or(default_dir), options.certificate,
+                           options.poses, options.quiet};
   return sweep.values.empty() ? run_once(chapter, scene, context)
                               : run_sweep(chapter, source, sweep, context);
 }

@@ -68,6 +68,7 @@ class Progress {
 
 // What a chapter's run gets beside the scene.
 struct RunContext {
+  std::string chapter;            // the program's name
   std::filesystem::path out_dir;  // exists
   bool certificate = false;       // --certificate
   bool poses = false;             // --poses

@@ -14,7 +14,7 @@ int run(const Scene& scene, const RunContext& context, Summary& summary) {
     convex[i] = {shape.core.vertices, shape.radius, ca::reach_of(shape.core.vertices)};
   }
   ca::run_queries(
-      scene, ca::query_motions(scene, shapes),
+      scene, shapes, ca::query_motions(scene, shapes),
       [&](const ca::Motion& a, const ca::Motion& b, const ca::AdvanceOptions& options) {
         return ca::advance(convex[0], a, convex[1], b, options);
       },

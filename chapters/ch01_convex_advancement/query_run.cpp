@@ -66,10 +66,46 @@ struct Tables {
   }
 };
 
+// How the two bodies fly until the query's answer, in frames of a sixtieth of the interval; there they stop.
+MotionRecording recorded(const Scene& scene, const std::vector<Shape>& shapes, const QueryMotions& query,
+                         const AdvanceResult& result, double interval, const std::string& chapter) {
+  constexpr int kFrames = 60;
+  const double end = result.status == Status::separated ? interval : result.toc;
+  const double dt = interval > 0 ? interval / kFrames : 1.0 / kFrames;
+  MotionRecording motion(scene.name, chapter, dt);
+  for (const Shape& shape : shapes) motion.add_shape(shape);
+  const auto states = [&](double t) {
+    std::vector<RigidBody> bodies;
+    for (int i = 0; i < 2; ++i) {
+      const Motion& m = i == 0 ? query.a : query.b;
+      RigidBody body;
+      body.position = m.position_at(t);
+      body.orientation = Quat(m.rotation_at(t));
+      body.velocity = m.velocity_at(t);
+      body.spin = m.spin;
+      bodies.push_back(body);
+    }
+    return bodies;
+  };
+  const std::vector<RigidBody> first = states(0);
+  for (int i = 0; i < 2; ++i) motion.add_body(scene.bodies[i].shape, first[i]);
+  const auto frame = [&](double t) {
+    motion.frame(t, states(t));
+    motion.value("contacts", "features in contact", "",
+                 t < end ? 0 : static_cast<double>(result.features.size()));
+  };
+  for (int k = 0; k * dt < end; ++k) frame(k * dt);
+  frame(end);
+  for (const FeaturePair& f : result.features)
+    motion.contact(end, 0.5 * (f.point_a + f.point_b), f.normal, 1);
+  return motion;
+}
+
 }  // namespace
 
-void run_queries(const Scene& scene, const std::vector<QueryMotions>& queries, const Ask& ask,
-                 const RunContext& context, Summary& summary) {
+void run_queries(const Scene& scene, const std::vector<Shape>& shapes,
+                 const std::vector<QueryMotions>& queries, const Ask& ask, const RunContext& context,
+                 Summary& summary, const std::function<void(MotionRecording&)>& add_hulls) {
   AdvanceOptions options;
   options.interval = scene.interval;
   options.tolerance = scene.ccd.tolerance;
@@ -103,6 +139,9 @@ void run_queries(const Scene& scene, const std::vector<QueryMotions>& queries, c
       summary.add("gap, certified lower bound", r.gap_lower, "m");
       summary.add("gap, witness points", r.gap_upper, "m");
       summary.add("features", static_cast<std::int64_t>(r.features.size()));
+      MotionRecording motion = recorded(scene, shapes, queries[q], r, options.interval, context.chapter);
+      if (add_hulls) add_hulls(motion);
+      summary.add_note("motion", motion.write(context.out_dir));
     }
     progress.update(static_cast<std::int64_t>(q) + 1);
   }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "ch01_convex_advancement/query.hpp"
+#include "common/motion_recording.hpp"
 #include "common/program.hpp"
 #include "common/shape.hpp"
 
@@ -21,9 +22,10 @@ struct QueryMotions {
 std::vector<QueryMotions> query_motions(const Scene& scene, const std::vector<Shape>& shapes);
 
 // Answers each query with `ask`, writes queries.csv, features.csv and, if asked for, certificate.csv, and
-// fills the summary.
+// fills the summary. A single query's motion is written too; `add_hulls` (optional) adds to it what it likes.
 using Ask = std::function<AdvanceResult(const Motion& a, const Motion& b, const AdvanceOptions& options)>;
-void run_queries(const Scene& scene, const std::vector<QueryMotions>& queries, const Ask& ask,
-                 const RunContext& context, Summary& summary);
+void run_queries(const Scene& scene, const std::vector<Shape>& shapes,
+                 const std::vector<QueryMotions>& queries, const Ask& ask, const RunContext& context,
+                 Summary& summary, const std::function<void(MotionRecording&)>& add_hulls = {});
 
 }  // namespace fc::ca

@@ -3,10 +3,26 @@
 
 #include "ch01_convex_advancement/query_run.hpp"
 #include "ch02_hull_hierarchy/advance.hpp"
+#include "common/convex_hull.hpp"
 
 namespace {
 
 using namespace fc;
+
+// The hulls of the upper levels of a shape's hierarchy, to be looked at.
+void record_levels(MotionRecording& motion, int shape, const hulls::Model& model) {
+  constexpr std::size_t kMostHulls = 128;  // of a level: more are too many to see, and to store
+  std::vector<int> level{0};
+  for (int k = 0; !level.empty() && level.size() <= kMostHulls; ++k) {
+    std::vector<int> next;
+    for (const int n : level) {
+      const hulls::HullNode& node = model.tree.nodes[n];
+      if (const auto hull = hull_mesh(model.tree.hull(node))) motion.add_hull(shape, k, *hull);
+      if (!node.leaf()) next.insert(next.end(), {node.left, node.right});
+    }
+    level = std::move(next);
+  }
+}
 
 int run(const Scene& scene, const RunContext& context, Summary& summary) {
   const std::vector<Shape> shapes = build_shapes(scene, false);
@@ -26,11 +42,14 @@ int run(const Scene& scene, const RunContext& context, Summary& summary) {
   const hulls::Model& a = models[scene.bodies[0].shape];
   const hulls::Model& b = models[scene.bodies[1].shape];
   ca::run_queries(
-      scene, ca::query_motions(scene, shapes),
+      scene, shapes, ca::query_motions(scene, shapes),
       [&](const ca::Motion& motion_a, const ca::Motion& motion_b, const ca::AdvanceOptions& options) {
         return hulls::advance(a, motion_a, b, motion_b, options);
       },
-      context, summary);
+      context, summary,
+      [&](MotionRecording& motion) {
+        for (std::size_t i = 0; i < models.size(); ++i) record_levels(motion, static_cast<int>(i), models[i]);
+      });
   return 0;
 }
 

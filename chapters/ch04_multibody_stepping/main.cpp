@@ -54,17 +54,22 @@ int run(const Scene& scene, const RunContext& context, Summary& summary) {
   summary.add_time("time to build shapes and hierarchies", built_ns);
 
   const StepSpec& step = *scene.step;
-  world::Recorder recorder(context);
+  world::Recorder recorder(scene, world, context);
   recorder.start(world);
   Progress progress("frames", step.frames, context.quiet);
-  for (int frame = 0; frame < step.frames; ++frame) {
-    const double t = frame * step.dt;
-    const world::StepReport report = world::step(
-        world, step.dt, [&](const world::ImpactRecord& impact) { recorder.impact(t + impact.time, impact); });
-    recorder.frame(world, frame + 1, (frame + 1) * step.dt, report);
-    progress.update(frame + 1);
+  try {
+    for (int frame = 0; frame < step.frames; ++frame) {
+      const world::StepReport report = world::step(
+          world, step.dt, [&](const world::ImpactRecord& impact) { recorder.impact(impact); },
+          [&](const world::World& now, double time) { recorder.instant(now, time); });
+      recorder.frame(world, frame + 1, (frame + 1) * step.dt, report);
+      progress.update(frame + 1);
+    }
+  } catch (...) {  // what was simulated so far stays, and can be watched
+    recorder.close();
+    throw;
   }
-  recorder.close();
+  summary.add_note("motion", recorder.close());
   if (recorder.first_impact()) summary.add("first impact at", *recorder.first_impact(), "s");
   world::summarize(scene, world, recorder.reports(), summary);
   return 0;

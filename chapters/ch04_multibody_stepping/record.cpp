@@ -41,10 +41,15 @@ Totals totals_of(const World& world) {
   return totals;
 }
 
-Recorder::Recorder(const RunContext& context)
+Recorder::Recorder(const Scene& scene, const World& world, const RunContext& context)
     : steps_(context.out_dir / "steps.csv", steps_columns()),
-      contacts_(context.out_dir / "contacts.csv", contacts_columns()) {
+      contacts_(context.out_dir / "contacts.csv", contacts_columns()),
+      motion_(scene.name, "ch04_multibody_stepping", scene.step->dt),
+      folder_(context.out_dir),
+      dt_(scene.step->dt) {
   if (context.poses) poses_.emplace(context.out_dir / "poses.csv", poses_columns());
+  for (const Shape& shape : world.shapes) motion_.add_shape(shape);
+  for (const Body& body : world.bodies) motion_.add_body(body.shape, body.state);
 }
 
 void Recorder::start(const World& world) {
@@ -52,26 +57,62 @@ void Recorder::start(const World& world) {
   nothing.min_gap = std::numeric_limits<double>::infinity();
   steps_row(world, 0, 0, nothing);
   poses_rows(world, 0);
+  motion_frame(world, 0, 0, 0);
+}
+
+void Recorder::instant(const World& world, double time) {
+  for (; impacts_seen_ < impacts_.size(); ++impacts_seen_) {
+    const lcp::Contact& c = impacts_[impacts_seen_].contact;
+    for (const int body : {c.body_a, c.body_b}) kinks_.push_back({body, time, world.state_at(body, time)});
+  }
 }
 
 void Recorder::frame(const World& world, int number, double t, const StepReport& report) {
+  double impulse = 0;
+  for (const ImpactRecord& record : impacts_) impulse += record.impulse.impulse;
+  write_impacts((number - 1) * dt_);
   steps_row(world, number, t, report);
   poses_rows(world, t);
+  motion_frame(world, t, impulse, report.impacts);
   reports_.push_back(report);
 }
 
-void Recorder::impact(double t, const ImpactRecord& record) {
-  const lcp::Contact& c = record.contact;
-  if (!first_impact_) first_impact_ = t;
-  contacts_.row({t, std::int64_t{c.body_a}, std::int64_t{c.body_b}, c.point.x(), c.point.y(), c.point.z(),
-                 c.normal.x(), c.normal.y(), c.normal.z(), c.gap, record.impulse.v_before,
-                 record.impulse.v_after, record.impulse.impulse});
+void Recorder::write_impacts(double frame_start) {
+  for (const Kink& kink : kinks_) motion_.key(kink.body, frame_start + kink.time, kink.state);
+  for (const ImpactRecord& record : impacts_) {
+    const double t = frame_start + record.time;
+    const lcp::Contact& c = record.contact;
+    if (!first_impact_) first_impact_ = t;
+    contacts_.row({t, std::int64_t{c.body_a}, std::int64_t{c.body_b}, c.point.x(), c.point.y(), c.point.z(),
+                   c.normal.x(), c.normal.y(), c.normal.z(), c.gap, record.impulse.v_before,
+                   record.impulse.v_after, record.impulse.impulse});
+    motion_.contact(t, c.point, c.normal, record.impulse.impulse);
+  }
+  kinks_.clear();
+  impacts_.clear();
+  impacts_seen_ = 0;
 }
 
-void Recorder::close() {
+std::string Recorder::close() {
+  write_impacts(static_cast<double>(reports_.size()) * dt_);  // of a step that failed
   steps_.close();
   contacts_.close();
   if (poses_) poses_->close();
+  return motion_.write(folder_);
+}
+
+void Recorder::motion_frame(const World& world, double t, double impulse, int contacts) {
+  std::vector<RigidBody> states;
+  for (const Body& body : world.bodies) states.push_back(body.state);
+  motion_.frame(t, states);
+  const Totals totals = totals_of(world);
+  motion_.value("energy", "kinetic", "J", totals.kinetic);
+  if (!world.gravity.isZero(0)) {
+    motion_.value("energy", "potential", "J", totals.potential);
+    motion_.value("energy", "total", "J", totals.kinetic + totals.potential);
+  }
+  motion_.value("impulse", "impulse in the frame", "N s", impulse);
+  motion_.value("contacts", "contacts in the frame", "", contacts);
 }
 
 void Recorder::steps_row(const World& world, int number, double t, const StepReport& r) {

@@ -1,10 +1,14 @@
-// The tables of a simulation (contract 1.5): steps.csv, contacts.csv and, if asked for, poses.csv.
+// The tables of a simulation (contract 1.5): steps.csv, contacts.csv and, if asked for, poses.csv; and its
+// motion.
 #pragma once
 
+#include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "ch04_multibody_stepping/world.hpp"
+#include "common/motion_recording.hpp"
 #include "common/program.hpp"
 #include "common/table.hpp"
 
@@ -19,22 +23,40 @@ Totals totals_of(const World& world);
 
 class Recorder {
  public:
-  Recorder(const RunContext& context);
+  Recorder(const Scene& scene, const World& world, const RunContext& context);
 
   void start(const World& world);  // row 0
+  // To be called inside a step, with times within the frame: they only take notes.
+  void impact(const ImpactRecord& record) { impacts_.push_back(record); }
+  void instant(const World& world, double time);
+  // After a step that ended at t (s).
   void frame(const World& world, int number, double t, const StepReport& report);
-  void impact(double t, const ImpactRecord& record);
-  void close();
+  // Closes the tables and writes the motion; the result is a remark on it for the summary.
+  std::string close();
 
   const std::vector<StepReport>& reports() const { return reports_; }
   std::optional<double> first_impact() const { return first_impact_; }  // s
 
  private:
+  void write_impacts(double frame_start);
   void steps_row(const World& world, int number, double t, const StepReport& report);
   void poses_rows(const World& world, double t);
+  void motion_frame(const World& world, double t, double impulse, int contacts);
+
+  struct Kink {  // a body's state just after an impact
+    int body;
+    double time;  // s in the frame
+    RigidBody state;
+  };
 
   TableWriter steps_, contacts_;
   std::optional<TableWriter> poses_;
+  MotionRecording motion_;
+  std::filesystem::path folder_;
+  double dt_;
+  std::vector<ImpactRecord> impacts_;  // of the frame that is being stepped
+  std::size_t impacts_seen_ = 0;       // how many of them belong to instants that are over
+  std::vector<Kink> kinks_;
   std::vector<StepReport> reports_;
   std::optional<double> first_impact_;
 };

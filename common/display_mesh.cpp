@@ -1,0 +1,97 @@
+#include "common/display_mesh.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace fc {
+namespace {
+
+constexpr int kAround = 24;            // corners of a circle
+constexpr std::size_t kSmooth = 1000;  // a mesh of more triangles than this is drawn smooth
+
+void add_vertex(DisplayMesh& mesh, const Vec3& position, const Vec3& normal) {
+  for (int k = 0; k < 3; ++k) {
+    mesh.positions.push_back(static_cast<float>(position[k]));
+    mesh.normals.push_back(static_cast<float>(normal[k]));
+  }
+}
+
+// One ring of a surface of revolution about z.
+struct Ring {
+  double radius, z;              // m
+  double normal_out, normal_up;  // the unit normal, away from the axis and along it
+};
+
+// The surface through rings from the bottom up.
+void add_surface(DisplayMesh& mesh, const std::vector<Ring>& rings) {
+  const int first = static_cast<int>(mesh.positions.size() / 3);
+  for (const Ring& ring : rings)
+    for (int i = 0; i < kAround; ++i) {
+      const double angle = 2 * std::numbers::pi * i / kAround, c = std::cos(angle), s = std::sin(angle);
+      add_vertex(mesh, {ring.radius * c, ring.radius * s, ring.z},
+                 {ring.normal_out * c, ring.normal_out * s, ring.normal_up});
+    }
+  for (int ring = 0; ring + 1 < static_cast<int>(rings.size()); ++ring)
+    for (int i = 0; i < kAround; ++i) {
+      const int a = first + ring * kAround + i, b = first + ring * kAround + (i + 1) % kAround;
+      if (rings[ring].radius > 0) mesh.triangles.push_back({a, b, b + kAround});
+      if (rings[ring + 1].radius > 0) mesh.triangles.push_back({a, b + kAround, a + kAround});
+    }
+}
+
+// Half a ball's rings, from the equator to the pole or the other way round.
+void add_cap(std::vector<Ring>& rings, double radius, double middle, bool upper) {
+  constexpr int steps = 8;
+  for (int k = 0; k <= steps; ++k) {
+    const double angle = 0.5 * std::numbers::pi * (upper ? k : k - steps) / steps;
+    const bool pole = upper ? k == steps : k == 0;
+    const double out = pole ? 0 : std::cos(angle), up = pole ? (upper ? 1 : -1) : std::sin(angle);
+    rings.push_back({radius * out, middle + radius * up, out, up});
+  }
+}
+
+std::vector<Ring> ball(double radius, double bottom, double top) {
+  std::vector<Ring> rings;
+  add_cap(rings, radius, bottom, false);
+  add_cap(rings, radius, top, true);
+  return rings;
+}
+
+}  // namespace
+
+DisplayMesh display_mesh(const Shape& shape) {
+  DisplayMesh mesh;
+  if (shape.kind == Shape::Kind::sphere || shape.kind == Shape::Kind::capsule) {
+    add_surface(mesh, ball(shape.radius, shape.core.vertices.front().z(), shape.core.vertices.back().z()));
+    const Vec3 middle = 0.5 * (shape.core.vertices.front() + shape.core.vertices.back());
+    for (std::size_t i = 0; i < mesh.positions.size(); i += 3)
+      for (int k = 0; k < 2; ++k) mesh.positions[i + k] += static_cast<float>(middle[k]);
+    return mesh;
+  }
+  std::vector<Vec3> normals(shape.core.vertices.size(), Vec3::Zero());
+  for (const auto& [a, b, c] : shape.core.triangles) {
+    const std::vector<Vec3>& x = shape.core.vertices;
+    const Vec3 normal = (x[b] - x[a]).cross(x[c] - x[a]);  // its length weighs by area
+    for (const int i : {a, b, c}) normals[i] += normal;
+  }
+  const bool smooth = shape.core.triangles.size() > kSmooth;
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    const double size = normals[i].norm();
+    add_vertex(mesh, shape.core.vertices[i], size > 0 ? Vec3(normals[i] / size) : Vec3(Vec3::UnitZ()));
+  }
+  if (!smooth) mesh.normals.clear();
+  mesh.triangles = shape.core.triangles;
+  return mesh;
+}
+
+DisplayMesh arrow_mesh() {
+  DisplayMesh mesh;
+  add_surface(mesh, ball(0.06, 0, 0));
+  add_surface(mesh, {{0.022, 0, 1, 0}, {0.022, 0.72, 1, 0}});
+  add_surface(mesh, {{0, 0.72, 0, -1}, {0.07, 0.72, 0, -1}});
+  const double slope = 0.07 / 0.28, out = 1 / std::hypot(1.0, slope);
+  add_surface(mesh, {{0.07, 0.72, out, slope * out}, {0, 1, out, slope * out}});
+  return mesh;
+}
+
+}  // namespace fc
