@@ -1,0 +1,29 @@
+// Exercise 1.1: how fast can a swinging door close in?
+#pragma once
+
+#include <vector>
+
+#include "common/types.hpp"
+
+namespace fc::exercises {
+
+// A body that turns about a fixed hinge, with a spin that changes evenly: at time s its points turn about the
+// line through `hinge` along `axis` with angular velocity (spin + spin_up s) axis. No point does anything
+// else.
+struct Door {
+  Vec3 hinge = Vec3::Zero();  // m, world: any point of the hinge's line
+  Vec3 axis = Vec3::UnitZ();  // unit, world
+  double spin = 0;            // rad/s, at s = 0
+  double spin_up = 0;         // rad/s^2, constant
+  std::vector<Vec3> corners;  // m, world, at s = 0; the door is their convex hull
+};
+
+// An upper bound, in m/s, of n . (velocity of any point of the door) at any time from t until end (s, t <=
+// end).
+//   n: unit, world; it does not move.
+// It may depend on how far the corners are from the hinge's line, not on where they are just now: they will
+// turn. No smaller bound of this kind holds: if the door turns far enough, one of its corners comes as near
+// to the bound as you like (for a constant spin). Not negative.
+double door_speed_bound(const Door& door, const Vec3& n, double t, double end);
+
+}  // namespace fc::exercises

@@ -1,0 +1,33 @@
+// Exercise 1.2: why did it miss?
+#pragma once
+
+#include <vector>
+
+#include "ch01_convex_advancement/query.hpp"
+
+namespace fc::exercises {
+
+// A thin rod above the floor z = 0. Its middle moves up or down evenly, and it turns evenly in a vertical
+// plane: at time t its middle is at height + climb t, and it makes the angle tilt + spin t with the floor.
+struct Rod {
+  double half_length = 0;  // m, > 0
+  double height = 0;       // m
+  double climb = 0;        // m/s, negative: falling
+  double tilt = 0;         // rad
+  double spin = 0;         // rad/s
+};
+
+struct Answer {
+  ca::Status status = ca::Status::unresolved;  // contact, separated or unresolved
+  double toc = 0;               // s: contact: when; unresolved: clear until then; separated: the interval
+  std::vector<double> visited;  // s, each time that the advancement looked at, from 0 on
+};
+
+// The first contact of the rod with the floor in [0, interval] (s), by conservative advancement.
+//   tolerance: m, > 0. `contact` means: at toc the gap is positive and at most the tolerance.
+//   most: the largest number of advances; if they do not suffice, the answer is `unresolved`.
+// Guarantee: before toc the rod does not touch the floor. The rod starts above the floor, farther than the
+// tolerance.
+Answer first_contact(const Rod& rod, double interval, double tolerance, int most);
+
+}  // namespace fc::exercises

@@ -1,0 +1,19 @@
+// Caught by: Ex01Door.IsZeroAlongTheHinge
+// The naive bound: the same in all directions.
+#include <algorithm>
+#include <cmath>
+
+#include "ex01_door.hpp"
+
+namespace fc::exercises {
+
+double door_speed_bound(const Door& door, const Vec3& n, double t, double end) {
+  double across = 0;
+  for (const Vec3& corner : door.corners)
+    across = std::max(across, (corner - door.hinge).cross(door.axis).norm());
+  const double fastest =
+      std::max(std::abs(door.spin + door.spin_up * t), std::abs(door.spin + door.spin_up * end));
+  return fastest * n.norm() * across;
+}
+
+}  // namespace fc::exercises
