@@ -1,6 +1,8 @@
-"""Checks the tree: what stands at the top, and that includes point backwards only (design 1.2 and 2.1)."""
+"""Checks the tree: what stands at the top, that includes point backwards only, that exercises are complete (design 1.2,
+2.1 and 2.5)."""
 
 import re
+import shutil
 import tempfile
 import unittest
 from pathlib import Path
@@ -34,7 +36,89 @@ def wrong_includes(root: Path) -> list[str]:
     return wrong
 
 
+def exercise_faults(root: Path) -> list[str]:
+    """What an exercise lacks (exercises/README.md), and files that belong to none."""
+    faults, belonging = [], set()
+    registered = (root / "tests/exercises/CMakeLists.txt").read_text(encoding="utf-8")
+    for header in sorted((root / "exercises").glob("ch*/ex*.hpp")):
+        chapter, name = header.parent.name, header.stem
+        number = name.split("_")[0]
+        dotted = f"{int(chapter[2:])}.{int(number[2:])}"
+        tests = root / "tests/exercises" / chapter
+        test = tests / f"{name}_test.cpp"
+        parts = [header, header.with_suffix(".cpp"), header.with_name(f"{name}.demo.cpp"), test,
+                 root / "solutions" / chapter / f"{name}.cpp", root / "plots" / f"{chapter}_{name}.py"]
+        mutants = sorted((tests / "mutants").glob(f"{name}.*.cpp"))
+        belonging.update(parts, mutants)
+        faults += [f"{name}: no {part.relative_to(root)}" for part in parts if not part.exists()]
+        if f"fc_add_exercise({chapter} {name} " not in registered:
+            faults.append(f"{name}: not in tests/exercises/CMakeLists.txt")
+        if not mutants:
+            faults.append(f"{name}: no mutant")
+        source = test.read_text(encoding="utf-8") if test.exists() else ""
+        for mutant in mutants:
+            first = mutant.read_text(encoding="utf-8").splitlines()[0]
+            caught = re.fullmatch(r"// Caught by: (\w+)\.(\w+)", first)
+            if not caught or f"TEST({caught[1]}, {caught[2]})" not in source:
+                faults.append(f"{mutant.name}: its first line names no test of {test.name}")
+        statement = root / "exercises" / chapter / "README.md"
+        text = statement.read_text(encoding="utf-8") if statement.exists() else ""
+        section = re.search(rf"^## {re.escape(dotted)} .*?(?=^## |\Z)", text, re.M | re.S)
+        if f"`{name}.cpp`" not in text.split("## ")[0]:
+            faults.append(f"{name}: no row in {chapter}/README.md")
+        if not section or "<details>" not in section[0]:
+            faults.append(f"{name}: no section {dotted} with a hint in {chapter}/README.md")
+    for folder in ("exercises", "solutions", "tests/exercises"):
+        for file in sorted((root / folder).rglob("*.[hc]pp")):
+            if file not in belonging:
+                faults.append(f"{file.relative_to(root)}: belongs to no exercise")
+    return faults
+
+
 class StructureTest(unittest.TestCase):
+    def test_exercises_are_complete(self):
+        self.assertEqual(exercise_faults(ROOT), [])
+
+    def test_the_exercise_check_sees_what_is_missing(self):
+        name = "ch01/ex01_door"
+        for lost, fault in {
+                "exercises/ch01/ex01_door.cpp": "no exercises", "exercises/ch01/ex01_door.demo.cpp": "no exercises",
+                "solutions/ch01/ex01_door.cpp": "no solutions", "tests/exercises/ch01/ex01_door_test.cpp": "no tests",
+                "plots/ch01_ex01_door.py": "no plots", "tests/exercises/ch01/mutants/ex01_door.*": "no mutant"}.items():
+            with self.subTest(lost), tempfile.TemporaryDirectory() as folder:
+                root = self.exercise_tree(Path(folder))
+                for file in root.glob(lost):
+                    file.unlink()
+                self.assertTrue(any(fault in f for f in exercise_faults(root)), exercise_faults(root))
+        statement, listed = "exercises/ch01/README.md", "tests/exercises/CMakeLists.txt"
+        mutant = "tests/exercises/ch01/mutants/ex01_door.from_the_origin.cpp"
+        for file, old, new, fault in (
+                (statement, "`ex01_door.cpp`", "it", "no row"), (statement, "<details>", "", "with a hint"),
+                (statement, "## 1.1 ", "## 1.7 ", "no section 1.1"), (listed, "ex01_door", "ex01_gate", "not in tests"),
+                (mutant, "Ex01Door.", "Ex01Gate.", "names no test")):
+            with self.subTest(f"{file}: {fault}"), tempfile.TemporaryDirectory() as folder:
+                root = self.exercise_tree(Path(folder))
+                text = (root / file).read_text(encoding="utf-8")
+                self.assertIn(old, text)
+                (root / file).write_text(text.replace(old, new), encoding="utf-8")
+                self.assertTrue(any(fault in f for f in exercise_faults(root)), exercise_faults(root))
+        for stray in ("solutions/ch01/ex09_old.cpp", "tests/exercises/ch01/mutants/ex09_old.wrong.cpp", "exercises/ch01/notes.cpp"):
+            with self.subTest(stray), tempfile.TemporaryDirectory() as folder:
+                root = self.exercise_tree(Path(folder))
+                (root / stray).write_text("// nobody's\n")
+                self.assertEqual(exercise_faults(root), [f"{stray}: belongs to no exercise"])
+        self.assertTrue((ROOT / f"exercises/{name}.hpp").exists())
+
+    def exercise_tree(self, root: Path) -> Path:
+        """A copy of the exercises; nothing is wrong with it."""
+        for folder in ("exercises", "solutions", "tests/exercises"):
+            shutil.copytree(ROOT / folder, root / folder)
+        (root / "plots").mkdir()
+        for plot in (ROOT / "plots").glob("ch*_ex*.py"):
+            shutil.copy(plot, root / "plots")
+        self.assertEqual(exercise_faults(root), [])
+        return root
+
     def test_nothing_else_stands_at_the_top(self):
         there = {path.name for path in ROOT.iterdir() if not path.name.startswith(".")}
         self.assertEqual(there - AT_THE_TOP - MADE_BY_USERS, set())

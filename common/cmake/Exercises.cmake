@@ -17,17 +17,16 @@ function(fc_add_exercise chapter name)
   set(id ${chapter}_${number})
   set(tests ${CMAKE_SOURCE_DIR}/tests/exercises/${chapter})
   set(learner ${CMAKE_SOURCE_DIR}/exercises/${chapter}/${name}.cpp)
+  set_source_files_properties(${learner} PROPERTIES COMPILE_OPTIONS "-Wno-error;-Wno-unused-parameter")  # it may be unfinished
 
   add_library(${id}_tests OBJECT EXCLUDE_FROM_ALL ${tests}/${name}_test.cpp)
   fc_exercise_settings(${id}_tests ${chapter} ${ARG_LINKS})
 
   add_executable(${id}_exercise EXCLUDE_FROM_ALL ${learner})
   fc_exercise_settings(${id}_exercise ${chapter} ${id}_tests ${ARG_LINKS})
-  target_compile_options(${id}_exercise PRIVATE -Wno-error -Wno-unused-parameter)  # a learner may leave things unused
 
   add_executable(${id}_demo EXCLUDE_FROM_ALL ${CMAKE_SOURCE_DIR}/exercises/${chapter}/${name}.demo.cpp ${learner})
   fc_exercise_settings(${id}_demo ${chapter} ${ARG_LINKS})
-  target_compile_options(${id}_demo PRIVATE -Wno-error -Wno-unused-parameter)
 
   fc_exercise_begun(${learner} begun)
   if(begun)
@@ -35,7 +34,6 @@ function(fc_add_exercise chapter name)
   else()
     add_executable(${id}_stub ${learner})
     fc_exercise_settings(${id}_stub ${chapter} ${id}_tests ${ARG_LINKS})
-    target_compile_options(${id}_stub PRIVATE -Wno-unused-parameter)
     gtest_discover_tests(${id}_stub TEST_PREFIX "stub_must_fail.${chapter}." PROPERTIES WILL_FAIL TRUE TIMEOUT 60)
   endif()
 
@@ -51,6 +49,7 @@ function(fc_add_exercise chapter name)
     string(REGEX REPLACE "^// Caught by: " "" catcher "${first}")
     add_executable(${id}_mutant_${mistake} ${mutant})
     fc_exercise_settings(${id}_mutant_${mistake} ${chapter} ${id}_tests ${ARG_LINKS})
+    target_compile_options(${id}_mutant_${mistake} PRIVATE -Wno-unused-parameter)  # often the very mistake
     add_test(NAME mutant_must_fail.${chapter}.${number}.${mistake}  # no such test: nothing fails, and this does
              COMMAND ${id}_mutant_${mistake} --gtest_filter=${catcher})
     set_tests_properties(mutant_must_fail.${chapter}.${number}.${mistake} PROPERTIES WILL_FAIL TRUE TIMEOUT 60)
@@ -69,13 +68,13 @@ endfunction()
 function(fc_exercise_begun file result)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
   file(STRINGS ${file} todo REGEX "FC_TODO\\(\"")
-  set(changed 0)
+  set(changed "")
   find_package(Git QUIET)
-  if(GIT_FOUND)
-    execute_process(COMMAND ${GIT_EXECUTABLE} diff --quiet HEAD -- ${file} WORKING_DIRECTORY ${CMAKE_SOURCE_DIR}
-                    RESULT_VARIABLE changed OUTPUT_QUIET ERROR_QUIET)
+  if(GIT_FOUND)  # outside a work tree it prints nothing
+    execute_process(COMMAND ${GIT_EXECUTABLE} status --porcelain -- ${file} WORKING_DIRECTORY ${CMAKE_SOURCE_DIR}
+                    OUTPUT_VARIABLE changed ERROR_QUIET)
   endif()
-  if(todo AND NOT changed EQUAL 1)
+  if(todo AND changed STREQUAL "")
     set(${result} FALSE PARENT_SCOPE)
   else()
     set(${result} TRUE PARENT_SCOPE)

@@ -1,0 +1,185 @@
+"""Tests exercises/check.py on a small project of its own, with real compilations: each state of an exercise, and the names."""
+
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+
+PROJECT = """
+cmake_minimum_required(VERSION 3.22)
+project(tiny LANGUAGES CXX)
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+list(APPEND CMAKE_MODULE_PATH ${CMAKE_SOURCE_DIR}/common/cmake)
+find_package(GTest REQUIRED)
+include(GoogleTest)
+include(Exercises)
+enable_testing()
+add_library(fc_settings INTERFACE)
+target_compile_options(fc_settings INTERFACE -Wall -Wextra -Werror)
+fc_add_exercise(ch07 ex01_double)
+fc_add_exercise(ch07 ex02_half)
+add_executable(chapter chapter.cpp)
+"""
+HEADER = "#pragma once\ndouble twice(double x);  // 2 x\n"
+STUB = '#include "{name}.hpp"\n\n#include "common/todo.hpp"\n\ndouble twice(double x) {{ FC_TODO("7.1"); }}\n'
+TESTS = """
+#include <gtest/gtest.h>
+#include "{name}.hpp"
+TEST(Double, OfOne) {{ EXPECT_EQ(twice(1), 2) << "metres: twice the way is longer"; }}
+TEST(Double, OfTwo) {{ EXPECT_EQ(twice(2), 4) << "metres"; }}
+TEST(Double, OfThree) {{ EXPECT_EQ(twice(3), 6) << "metres"; }}
+"""
+SOLUTION = '#include "{name}.hpp"\n\ndouble twice(double x) {{ return 2 * x; }}\n'
+MUTANT = '// Caught by: Double.OfThree\n#include "{name}.hpp"\n\ndouble twice(double x) {{ return x * x; }}\n'
+NAMES = ("ex01_double", "ex02_half")
+
+
+class CheckTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.root = root = Path(cls.temporary.name)
+        for folder in ("common/cmake", "exercises/ch07", "solutions/ch07", "tests/exercises/ch07/mutants"):
+            (root / folder).mkdir(parents=True)
+        for file in ("common/todo.hpp", "common/cmake/Exercises.cmake"):
+            shutil.copy(ROOT / file, root / file)
+        (root / "CMakeLists.txt").write_text(PROJECT)
+        (root / "chapter.cpp").write_text("int main() {}\n")
+        for name in NAMES:
+            for file, text in {f"exercises/ch07/{name}.hpp": HEADER, f"exercises/ch07/{name}.cpp": STUB,
+                               f"exercises/ch07/{name}.demo.cpp": "int main() {{}}\n", f"tests/exercises/ch07/{name}_test.cpp": TESTS,
+                               f"solutions/ch07/{name}.cpp": SOLUTION, f"tests/exercises/ch07/mutants/{name}.square.cpp": MUTANT}.items():
+                (root / file).write_text(text.format(name=name))
+        cls.build = root / "build"
+        configured = subprocess.run(["cmake", "-S", root, "-B", cls.build], capture_output=True, text=True, check=False)
+        assert configured.returncode == 0, configured.stdout + configured.stderr
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.temporary.cleanup()
+
+    def tearDown(self):
+        for name in NAMES:
+            self.write(STUB.format(name=name), name)
+
+    def write(self, text: str, name: str = "ex01_double") -> None:
+        (self.root / f"exercises/ch07/{name}.cpp").write_text(text)
+
+    def solve(self, body: str) -> None:
+        self.write(f'#include "ex01_double.hpp"\n#include <cstdlib>\n\ndouble twice(double x) {{ {body} }}\n')
+
+    def check(self, *arguments: str) -> tuple[int, str]:
+        """The exit code, and what was printed; nothing goes to standard error."""
+        done = subprocess.run([sys.executable, "-B", ROOT / "exercises/check.py", "--root", self.root, "--build", self.build,
+                               *arguments], capture_output=True, text=True, check=False)
+        self.assertEqual(done.stderr, "")
+        return done.returncode, done.stdout
+
+    def test_not_started(self):
+        code, out = self.check("ch07/ex01")
+        self.assertEqual(code, 1)
+        self.assertEqual(out, "ch07/ex01  ex01_double              not started\n0 of 1 exercises done\n")
+
+    def test_some_tests_pass(self):
+        self.solve("return x * x;")
+        code, out = self.check("ch07/ex01")
+        self.assertEqual(code, 1)
+        self.assertIn("1/3 tests pass", out)
+        self.assertIn("Double.OfOne", out)
+        self.assertIn("metres: twice the way is longer", out)
+        self.assertIn("0 of 1 exercises done", out)
+
+    def test_done(self):
+        self.solve("return 2 * x;")
+        code, out = self.check("ch07/ex01")
+        self.assertEqual(code, 0)
+        self.assertIn("ex01_double              done\n", out)
+        self.assertIn("compare with solutions/ch07/ex01_double.cpp", out)
+        code, out = self.check()  # the other one is not
+        self.assertEqual(code, 1)
+        self.assertIn("1 of 2 exercises done", out)
+
+    def test_the_pasted_solution_is_done(self):
+        shutil.copy(self.root / "solutions/ch07/ex01_double.cpp", self.root / "exercises/ch07/ex01_double.cpp")
+        self.assertEqual(self.check("ch07/ex01")[0], 0)
+
+    def test_does_not_compile_and_breaks_nothing_else(self):
+        self.solve("return 2 * y;")
+        code, out = self.check("ch07/ex01")
+        self.assertEqual(code, 1)
+        self.assertIn("does not compile", out)
+        self.assertRegex(out, r"exercises/ch07/ex01_double\.cpp:4:\d+: .*y")
+        self.write("double unrelated;\n")
+        self.assertRegex(self.check("ch07/ex01")[1], r"does not compile\n +exercises/ch07/ex01_double.cpp: twice.* is declared")
+        self.write("this is no C++\n")
+        built = subprocess.run(["cmake", "--build", self.build], capture_output=True, text=True, check=False)
+        self.assertEqual(built.returncode, 0, built.stdout + built.stderr)  # solutions, mutants and the chapter
+        proof = subprocess.run(["ctest", "--test-dir", self.build], capture_output=True, text=True, check=False)
+        self.assertEqual(proof.returncode, 0, proof.stdout)
+
+    def test_unused_things_are_no_errors(self):
+        self.solve("int unused = 0; return 2 * x;")
+        self.assertEqual(self.check("ch07/ex01")[0], 0)
+
+    def test_crashed(self):
+        self.solve("if (x > 1) abort(); return 2 * x;")
+        code, out = self.check("ch07/ex01")
+        self.assertEqual(code, 1)
+        self.assertIn("crashed: abort or a failed assert (SIGABRT)", out)
+        self.assertIn("in Double.OfTwo", out)
+        self.solve("if (x > 2) exit(3); return 2 * x;")
+        out = self.check("ch07/ex01")[1]
+        self.assertIn("crashed: exit code 3", out)
+        self.assertIn("in Double.OfThree", out)
+
+    def test_an_endless_loop_is_stopped(self):
+        self.solve("volatile bool on = true; while (on && x == 2) {} return 2 * x;")
+        code, out = self.check("ch07/ex01", "--limit", "1")
+        self.assertEqual(code, 1)
+        self.assertIn("crashed: stopped after 1 s; an endless loop?", out)
+
+    def test_names(self):
+        self.assertIn("0 of 2 exercises done", self.check("ch07")[1])
+        self.assertIn("0 of 1 exercises done", self.check("ch07/ex02_half")[1])
+        for wrong in ("ch08", "ch07/ex03", "ex01"):
+            done = subprocess.run([sys.executable, "-B", ROOT / "exercises/check.py", "--root", self.root, wrong],
+                                  capture_output=True, text=True, check=False)
+            self.assertEqual((done.returncode, done.stderr), (2, f"check: no exercise '{wrong}'; there are: ch07/ex01, ch07/ex02\n"))
+
+    def test_proofs_see_a_bad_test(self):
+        """A test that the stub passes, a mutant that passes, and a solution that fails make CTest fail."""
+        build = self.root / "proof"
+        subprocess.run(["cmake", "-S", self.root, "-B", build], capture_output=True, check=True)
+
+        def failing() -> set[str]:
+            built = subprocess.run(["cmake", "--build", build, "--parallel", "2"], capture_output=True, text=True, check=False)
+            self.assertEqual(built.returncode, 0, built.stdout + built.stderr)
+            out = subprocess.run(["ctest", "--test-dir", build], capture_output=True, text=True, check=False).stdout
+            listed = out.partition("The following tests FAILED:")[2]
+            return {line.split()[2] for line in listed.splitlines() if " - " in line}
+
+        self.assertEqual(failing(), set())
+        test = self.root / "tests/exercises/ch07/ex01_double_test.cpp"
+        mutant = self.root / "tests/exercises/ch07/mutants/ex01_double.square.cpp"
+        solution = self.root / "solutions/ch07/ex01_double.cpp"
+        for file, text, failed in (
+                (test, TESTS + "TEST(Double, Vacuous) {{ EXPECT_LT(1, 2); }}\n", {"stub_must_fail.ch07.Double.Vacuous"}),
+                (mutant, MUTANT.replace("x * x", "x + x"), {"mutant_must_fail.ch07.ex01.square"}),
+                (solution, SOLUTION.replace("2 *", "3 *"), {f"solution.ch07.Double.Of{n}" for n in ("One", "Two", "Three")})):
+            former = file.read_text()
+            file.write_text(text.format(name="ex01_double"))
+            try:
+                self.assertEqual(failing(), failed)
+            finally:
+                file.write_text(former)
+
+
+if __name__ == "__main__":
+    os.environ.pop("CMAKE_CXX_COMPILER_LAUNCHER", None)  # these compilations are nobody else's
+    unittest.main()
