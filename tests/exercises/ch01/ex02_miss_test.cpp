@@ -26,9 +26,11 @@ double true_contact(const Rod& rod, double interval) {
     }
   return -1;
 }
+std::string status_of(const Answer& answer) {
+  return fc::ca::name_of(answer.status);
+}
 std::string says(const Answer& answer) {
-  return std::string("the answer was `") + fc::ca::name_of(answer.status) + "` at " +
-         std::to_string(answer.toc) + " s";
+  return "the answer was `" + status_of(answer) + "` at " + std::to_string(answer.toc) + " s";
 }
 
 TEST(Ex02Miss, SeesARodThatFallsFlat) {
