@@ -82,6 +82,7 @@ AdvanceResult advance(const Convex& shape_a, const Motion& motion_a, const Conve
     if (result.iterations >= options.max_iterations || g.lower <= target) return result;  // unresolved
 
     cache = g.cache;
+    // ANCHOR: advance
     const double speed = closing_speed_bound(options.bound, motion_a, motion_b, g.normal, t, options.interval,
                                              shape_a.reach, shape_b.reach);
     const double remaining = options.interval - t;
@@ -93,6 +94,7 @@ AdvanceResult advance(const Convex& shape_a, const Motion& motion_a, const Conve
     if (!(next > t)) return result;  // unresolved: the step is below the rounding of t
     ++result.iterations;
     t = next;
+    // ANCHOR_END: advance
   }
 }
 

@@ -31,11 +31,13 @@ inline double closing_speed_bound(MotionBound kind, const Motion& a, const Motio
   const Vec3 velocity = a.velocity - b.velocity, acceleration = a.acceleration - b.acceleration;
   const double pull = n.dot(acceleration);
   const double linear = n.dot(velocity + t * acceleration) + std::max(0.0, pull * (end - t));
+  // ANCHOR: bound
   const double turn_a = kind == MotionBound::naive ? a.spin_rate : n.cross(a.spin).norm();
   const double turn_b = kind == MotionBound::naive ? b.spin_rate : n.cross(b.spin).norm();
   const double angular = turn_a * reach_a + turn_b * reach_b;
   const double summed = velocity.norm() + end * acceleration.norm() + angular;
   return linear + angular + 16 * std::numeric_limits<double>::epsilon() * summed;
+  // ANCHOR_END: bound
 }
 
 }  // namespace fc::ca

@@ -108,6 +108,7 @@ struct Search {
 
 Reach first_reach(const Model& a, const ca::Motion& motion_a, const Model& b, const ca::Motion& motion_b,
                   const ReachOptions& options, bool certificate) {
+  // ANCHOR: search
   Search search{a, motion_a, b, motion_b, options, certificate};
   search.wait(0, 0, 0, 0);
   Reach& reach = search.reach;
@@ -124,6 +125,7 @@ Reach first_reach(const Model& a, const ca::Motion& motion_a, const Model& b, co
       return std::move(reach);
     }
   }
+  // ANCHOR_END: search
   reach.status = Reach::Status::clear;
   reach.time = options.interval;
   return std::move(reach);

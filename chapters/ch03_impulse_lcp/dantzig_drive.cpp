@@ -146,6 +146,7 @@ void Dantzig::settle(int d) {
 }
 
 // Raises z_d until w_d >= 0, keeping every row that is done complementary.
+// ANCHOR: drive
 Drive Dantzig::drive(int d) {
   std::fill(barred_.begin(), barred_.end(), 0);
   zero_steps_ = 0;
@@ -185,5 +186,6 @@ Drive Dantzig::drive(int d) {
   settle(d);
   return Drive::done;
 }
+// ANCHOR_END: drive
 
 }  // namespace fc::lcp::detail

@@ -103,6 +103,7 @@ StepReport step(World& world, double dt, const OnImpact& on_impact, const OnInst
   report.min_gap = std::numeric_limits<double>::infinity();
   for (Pair& pair : world.pairs) pair.known = false;
 
+  // ANCHOR: step
   double now = 0;
   while (true) {
     // From contact to contact: the earliest of all pairs.
@@ -125,6 +126,7 @@ StepReport step(World& world, double dt, const OnImpact& on_impact, const OnInst
     find_next_contact(world, *next, now, dt, report);
     if (next->stalled) hold(world, island, now);
   }
+  // ANCHOR_END: step
 
   for (int body = 0; body < static_cast<int>(world.bodies.size()); ++body) {
     Body& b = world.bodies[body];
