@@ -11,7 +11,7 @@ using namespace fc;
 
 // The hulls of the upper levels of a shape's hierarchy, to be looked at.
 void record_levels(MotionRecording& motion, int shape, const hulls::Model& model) {
-  constexpr std::size_t kMostHulls = 128;  // of a level: more are too many to see, and to store
+  constexpr std::size_t kMostHulls = 64;  // of a level: more are too many to see, and to store
   std::vector<int> level{0};
   for (int k = 0; !level.empty() && level.size() <= kMostHulls; ++k) {
     std::vector<int> next;
