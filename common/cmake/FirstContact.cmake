@@ -18,6 +18,9 @@ target_compile_options(fc_settings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 14)
   target_compile_options(fc_settings INTERFACE -Wno-restrict)  # GCC bug 105329: false alarms on "text" + std::string
 endif()
+if(FC_BENCH AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  target_compile_options(fc_settings INTERFACE -Wno-maybe-uninitialized)  # GCC bug 105593: false alarms in AVX-512 headers
+endif()
 if(FC_SANITIZE)
   target_compile_options(fc_settings INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all
                                                -fno-omit-frame-pointer)
