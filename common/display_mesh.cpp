@@ -68,6 +68,18 @@ DisplayMesh display_mesh(const Shape& shape) {
       for (int k = 0; k < 2; ++k) mesh.positions[i + k] += static_cast<float>(middle[k]);
     return mesh;
   }
+  if (!shape.disks.empty()) {  // two disks, and the slope between their rims
+    const double low = shape.disks[0], high = shape.disks[1];
+    const double bottom = shape.core.vertices[0].z(), top = shape.core.vertices[1].z();
+    const double size = std::hypot(top - bottom, low - high), out = (top - bottom) / size,
+                 up = (low - high) / size;
+    add_surface(mesh, {{0, bottom, 0, -1}, {low, bottom, 0, -1}});
+    add_surface(mesh, {{low, bottom, out, up}, {high, top, out, up}});
+    if (high > 0) add_surface(mesh, {{high, top, 0, 1}, {0, top, 0, 1}});
+    for (std::size_t i = 0; i < mesh.positions.size(); i += 3)
+      for (int k = 0; k < 2; ++k) mesh.positions[i + k] += static_cast<float>(shape.core.vertices[0][k]);
+    return mesh;
+  }
   std::vector<Vec3> normals(shape.core.vertices.size(), Vec3::Zero());
   for (const auto& [a, b, c] : shape.core.triangles) {
     const std::vector<Vec3>& x = shape.core.vertices;

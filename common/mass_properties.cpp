@@ -51,6 +51,18 @@ MassProperties capsule_mass(double radius, double length, double density) {
   return {cylinder + caps, Vec3::Zero(), diagonal(across, across, along)};
 }
 
+MassProperties cylinder_mass(double radius, double length, double density) {
+  const double r2 = radius * radius, mass = density * std::numbers::pi * r2 * length;
+  const double across = mass * (r2 / 4 + length * length / 12);
+  return {mass, Vec3::Zero(), diagonal(across, across, mass * r2 / 2)};
+}
+
+MassProperties cone_mass(double radius, double length, double density) {
+  const double r2 = radius * radius, mass = density * std::numbers::pi / 3 * r2 * length;
+  const double across = mass * 3 / 20 * (r2 + length * length / 4);
+  return {mass, Vec3(0, 0, -length / 4), diagonal(across, across, mass * 0.3 * r2)};
+}
+
 MassProperties solid_mass(const TriangleMesh& mesh, double density) {
   const Vec3 origin = vertex_near_the_middle(mesh);
   double volume = 0;           // m^3, of all tetrahedra (origin, a, b, c), with sign

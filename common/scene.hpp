@@ -27,6 +27,14 @@ struct CapsuleSpec {
   double radius = 0;  // m
   double length = 0;  // m, along local z, without the caps
 };
+struct CylinderSpec {
+  double radius = 0;  // m
+  double length = 0;  // m, along local z, its middle at the shape's origin
+};
+struct ConeSpec {
+  double radius = 0;  // m, of its base
+  double length = 0;  // m, along local z: from the base at -length/2 to the apex at length/2
+};
 struct HullSpec {
   std::vector<Vec3> points;  // m
 };
@@ -37,7 +45,7 @@ struct MeshSpec {
 
 struct ShapeSpec {
   std::string name;
-  std::variant<SphereSpec, BoxSpec, CapsuleSpec, HullSpec, MeshSpec> geometry;
+  std::variant<SphereSpec, BoxSpec, CapsuleSpec, CylinderSpec, ConeSpec, HullSpec, MeshSpec> geometry;
   std::optional<double> density;       // kg/m^3; never together with mass
   std::optional<double> mass;          // kg
   std::optional<Mat3> inertia;         // kg m^2 about the centre of mass, shape axes; needs mass
@@ -64,9 +72,9 @@ struct StepSpec {
 };
 
 struct CcdSpec {
-  double tolerance = 1e-6;            // m
-  std::string bound = "directional";  // the motion bound: directional | naive
-  int max_iterations = 1'000'000;     // per query; then `unresolved`
+  double tolerance = 1e-6;             // m
+  std::string bound = "second_order";  // the motion bound (chapter 1)
+  int max_iterations = 1'000'000;      // per query; then `unresolved`
 };
 
 struct SolverSpec {

@@ -1,12 +1,13 @@
 #include <fmt/format.h>
 
+#include "common/scene_keys.hpp"
 #include "common/scene_parts.hpp"
 #include "common/text.hpp"
 
 namespace fc {
 namespace {
 
-const std::vector<std::string> kinds = {"sphere", "box", "capsule", "hull", "mesh"};
+const std::vector<std::string> kinds = {"sphere", "box", "capsule", "cylinder", "cone", "hull", "mesh"};
 
 // Debian's glmark2-data ships the Stanford bunny here.
 constexpr const char* system_models = "/usr/share/glmark2/models";
@@ -33,7 +34,7 @@ std::filesystem::path find_mesh(const Section& shape, const SceneSource& source)
 }
 
 // The one kind of shape that a shape's section has.
-std::string kind_of(const Section& shape, const std::string& name) {
+std::string kind_of(const Section& shape, const std::string& name, int chapter) {
   std::string found;
   for (const std::string& kind : kinds) {
     if (!shape.has(kind)) continue;
@@ -45,8 +46,11 @@ std::string kind_of(const Section& shape, const std::string& name) {
     found = kind;
   }
   if (found.empty()) {
+    std::vector<std::string> known;  // to this chapter
+    for (const std::string& kind : kinds)
+      if (chapter <= find_scene_key("shapes.<name>." + kind)->last) known.push_back(kind);
     refuse(shape.place(),
-           fmt::format("shape {} has no kind; give it one of {}", in_quotes(name), one_of(kinds)));
+           fmt::format("shape {} has no kind; give it one of {}", in_quotes(name), one_of(known)));
   }
   return found;
 }
@@ -64,6 +68,10 @@ void read_geometry(const Section& shape, const std::string& kind, const SceneSou
   if (kind == "capsule") {
     spec.geometry = CapsuleSpec{geometry.get(number_value, "radius"), geometry.get(number_value, "length")};
   }
+  if (kind == "cylinder")
+    spec.geometry = CylinderSpec{geometry.get(number_value, "radius"), geometry.get(number_value, "length")};
+  if (kind == "cone")
+    spec.geometry = ConeSpec{geometry.get(number_value, "radius"), geometry.get(number_value, "length")};
   if (kind == "hull") {
     spec.geometry = HullSpec{geometry.get(points_value, "points")};
     if (std::get<HullSpec>(spec.geometry).points.size() < 4) {
@@ -112,7 +120,7 @@ std::vector<ShapeSpec> read_shapes(const Section& scene, const SceneSource& sour
     ShapeSpec spec;
     spec.name = entry.key;
     spec.where = entry.key_place.mark();
-    const std::string kind = kind_of(shape, entry.key);
+    const std::string kind = kind_of(shape, entry.key, source.chapter);
     if (shape.has("scale") && kind != "mesh") {
       refuse(shape.entry("scale").key_place,
              "'scale' is for meshes only; remove it, and write the size you want");

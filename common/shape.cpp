@@ -35,6 +35,7 @@ struct Geometry {
   MeshReport report;
   std::optional<MassProperties> unit;  // nothing: no volume that matter could fill
   bool unit_of_hull = false;           // `unit` is that of the convex hull, filled
+  std::vector<double> disks = {};
 };
 
 TriangleMesh box_core(const Vec3& size) {
@@ -77,6 +78,23 @@ Geometry geometry_of(const CapsuleSpec& capsule, const ShapeSpec& spec) {
           {},
           capsule_mass(capsule.radius, capsule.length, 1),
           false};
+}
+
+// A cylinder, or a cone if the upper disk is a point.
+Geometry turned_solid(Shape::Kind kind, double radius, double upper, double length,
+                      const MassProperties& unit, const ShapeSpec& spec) {
+  require(radius > 0 && length > 0, spec.geometry_where, called(spec) + ": radius and length must be > 0");
+  const Vec3 end(0, 0, length / 2);
+  return {kind, {{-end, end}, {}}, 0, true, {}, unit, false, {radius, upper}};
+}
+
+Geometry geometry_of(const CylinderSpec& c, const ShapeSpec& spec) {
+  return turned_solid(Shape::Kind::cylinder, c.radius, c.radius, c.length,
+                      cylinder_mass(c.radius, c.length, 1), spec);
+}
+
+Geometry geometry_of(const ConeSpec& c, const ShapeSpec& spec) {
+  return turned_solid(Shape::Kind::cone, c.radius, 0, c.length, cone_mass(c.radius, c.length, 1), spec);
 }
 
 Geometry geometry_of(const HullSpec& hull, const ShapeSpec& spec) {
@@ -178,9 +196,13 @@ Shape build_shape(const ShapeSpec& spec, double scene_restitution) {
           called(spec) + ": its mass or inertia is too small or too large for a double; check the units");
 
   shape.core = std::move(geometry.core);
-  for (Vec3& v : shape.core.vertices) {
+  shape.disks = std::move(geometry.disks);
+  for (std::size_t i = 0; i < shape.core.vertices.size(); ++i) {
+    Vec3& v = shape.core.vertices[i];
     v -= shape.mass.center_of_mass;
-    shape.reach = std::max(shape.reach, v.norm() + shape.radius);
+    const double disk = shape.disks.empty() ? 0 : shape.disks[i];
+    const double rim = disk > 0 ? std::hypot(std::hypot(v.x(), v.y()) + disk, v.z()) : v.norm();
+    shape.reach = std::max(shape.reach, rim + shape.radius);
   }
   return shape;
 }

@@ -16,7 +16,7 @@
 namespace fc {
 
 struct Shape {
-  enum class Kind { sphere, capsule, box, hull, mesh };
+  enum class Kind { sphere, capsule, cylinder, cone, box, hull, mesh };
 
   std::string name;
   Kind kind = Kind::sphere;
@@ -25,6 +25,9 @@ struct Shape {
   // and 12 triangles, two for each of the sides -x, +x, -y, +y, -z, +z. Hull: its vertices and triangles.
   // Mesh: as prepare_mesh left it.
   TriangleMesh core;
+  // Cylinder and cone: 2 vertices on the axis, bottom and top, and for each the radius in m of a disk about
+  // it, across local z (0: none); the core is the convex hull of both disks. Empty for all others.
+  std::vector<double> disks;
   double radius = 0;    // m, rounding radius around the core
   bool solid = true;    // has an inside (false: a mesh that is only its surface)
   double reach = 0;     // m, the largest distance of the shape from its centre of mass, radius included

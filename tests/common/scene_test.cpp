@@ -69,7 +69,7 @@ TEST(Scene, LeavesOutWhatTheFileLeavesOut) {
 }
 
 TEST(Scene, ChoicesAreWords) {
-  EXPECT_EQ(read_text(two_balls, 1).ccd.bound, "directional");
+  EXPECT_EQ(read_text(two_balls, 1).ccd.bound, "second_order");
   EXPECT_EQ(read_text(two_balls, 1, {"ccd.bound=naive"}).ccd.bound, "naive");
 }
 

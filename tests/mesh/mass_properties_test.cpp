@@ -56,6 +56,31 @@ TEST(MassProperties, CapsuleAgreesWithQuadrature) {
   EXPECT_EQ(capsule.inertia(0, 0), capsule.inertia(1, 1));
 }
 
+// The same for a cylinder and a cone, about their centres of mass.
+TEST(MassProperties, CylinderAndConeAgreeWithQuadrature) {
+  const double r = 0.7, length = 1.3, density = 5;
+  for (const bool cone : {false, true}) {
+    const MassProperties solid = cone ? cone_mass(r, length, density) : cylinder_mass(r, length, density);
+    double mass = 0, first = 0, across = 0, along = 0;
+    const int n = 200000;
+    const double h = length / n;
+    for (int i = 0; i < n; ++i) {
+      const double z = -length / 2 + (i + 0.5) * h;
+      const double radius = cone ? r * (0.5 - z / length) : r, r2 = radius * radius;
+      const double disc = density * kPi * r2 * h, arm = z - solid.center_of_mass.z();
+      mass += disc;
+      first += disc * z;
+      along += disc * r2 / 2;
+      across += disc * (r2 / 4 + arm * arm);
+    }
+    EXPECT_NEAR(solid.mass / mass, 1, 1e-9);
+    EXPECT_NEAR(solid.center_of_mass.z(), first / mass, 1e-9);
+    EXPECT_NEAR(solid.inertia(2, 2) / along, 1, 1e-9);
+    EXPECT_NEAR(solid.inertia(0, 0) / across, 1, 1e-9);
+    EXPECT_EQ(solid.inertia(0, 0), solid.inertia(1, 1));
+  }
+}
+
 TEST(MassProperties, TetrahedronHasItsClosedForm) {
   // The corner of a cube, of edge 1: integrals of x^2 and xy over it are 1/60 and 1/120.
   TriangleMesh mesh;
