@@ -8,14 +8,14 @@ namespace fc::ca {
 namespace {
 
 // Which feature of a core the simplex spans: its distinct points, and the smallest of their numbers.
-void name_feature(const std::array<int, 4>& points, int count, FeatureKind& kind, int& id) {
+void name_feature(const std::array<SupportPoint, 4>& points, int count, FeatureKind& kind, int& id) {
   int n = 0;
-  id = points[0];
+  id = points[0].index;
   for (int i = 0; i < count; ++i) {
     bool seen = false;
-    for (int k = 0; k < i; ++k) seen = seen || points[k] == points[i];
+    for (int k = 0; k < i; ++k) seen = seen || points[k].point == points[i].point;
     n += seen ? 0 : 1;
-    id = std::min(id, points[i]);
+    id = std::min(id, points[i].index);
   }
   kind = n == 1 ? FeatureKind::vertex : n == 2 ? FeatureKind::edge : FeatureKind::face;
 }
@@ -30,6 +30,10 @@ FeaturePair witness(const GjkResult& g, const Vec3& origin) {
   name_feature(g.cache.b, g.cache.count, pair.kind_b, pair.id_b);
   return pair;
 }
+
+// How exact a distance has to be while the bodies are far apart, relative to it: a plane that is nearly the
+// best one allows nearly the best step, and costs less.
+constexpr double kFar = 0.02;
 
 // The sum of two times >= 0, rounded down.
 double sum_below(double t, double step) {
@@ -46,6 +50,7 @@ AdvanceResult advance(const Convex& shape_a, const Motion& motion_a, const Conve
   check_query(motion_a, motion_b, options);
   AdvanceResult result;
   result.node_pairs = 1;
+  const MovingPair pair(options.bound, shape_a, motion_a, shape_b, motion_b);
   double t = 0;
   SimplexCache cache;
   while (true) {
@@ -54,7 +59,7 @@ AdvanceResult advance(const Convex& shape_a, const Motion& motion_a, const Conve
     result.tolerance = std::max(options.tolerance, 8 * rounding_term(shape_a, shape_b, pose));
     const double target =
         0.5 * result.tolerance;  // never aim at contact itself: at distance 0 there is no plane
-    const GjkOptions accuracy{0.125 * result.tolerance, 1e-6, 128};
+    const GjkOptions accuracy{0.125 * result.tolerance, kFar, 128};
     GjkResult g = distance(shape_a, shape_b, pose, accuracy, &cache);
     ++result.distance_calls;
     if (t == 0 && g.status == GjkResult::Status::overlapping) {
@@ -83,13 +88,15 @@ AdvanceResult advance(const Convex& shape_a, const Motion& motion_a, const Conve
 
     cache = g.cache;
     // ANCHOR: advance
-    const double speed = closing_speed_bound(options.bound, motion_a, motion_b, g.normal, t, options.interval,
-                                             shape_a.reach, shape_b.reach);
-    const double remaining = options.interval - t;
-    double step = speed > 0 ? (g.lower - target) / speed : std::numeric_limits<double>::infinity();
+    double remaining = options.interval - t;
+    if (sum_below(t, remaining) < options.interval)  // rounded: the last row must reach the end
+      remaining = std::nextafter(remaining, options.interval);
+    double step = pair.safe_time(pose, g.normal, g.lower, target, t, options.interval);
     const bool clear = step >= remaining;
     step = std::min(step, remaining);
-    if (options.certificate) result.certificate.push_back({t, g.normal, g.lower, speed, step});
+    if (options.certificate)
+      result.certificate.push_back(
+          {t, g.normal, g.lower, (g.lower - (1 - kStepSlack) * target) / step, step});
     const double next = clear ? options.interval : sum_below(t, step);
     if (!(next > t)) return result;  // unresolved: the step is below the rounding of t
     ++result.iterations;

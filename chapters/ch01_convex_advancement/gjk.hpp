@@ -1,33 +1,17 @@
-// Distance of two convex polytopes by the method of Gilbert, Johnson and Keerthi, with a bound on each side.
+// Distance of two convex cores by the method of Gilbert, Johnson and Keerthi, with a bound on each side.
 #pragma once
 
 #include <array>
-#include <span>
 
+#include "ch01_convex_advancement/convex.hpp"
 #include "ch01_convex_advancement/motion.hpp"
-#include "common/types.hpp"
 
 namespace fc::ca {
 
-// A convex core given by points that span it (others inside do no harm), in its body's axes about its centre
-// of mass, and the radius of the ball that rounds it. The radius never enters GJK: it is taken off the
-// distance afterwards.
-struct Convex {
-  std::span<const Vec3> points;  // m, at least one
-  double radius = 0;             // m
-  double reach = 0;              // m, the largest |point|
-  Vec3 center = Vec3::Zero();    // m, somewhere in the middle: where GJK first looks from
-};
-
-// The largest |point|, in m: what Convex::reach must be.
-double reach_of(std::span<const Vec3> points);
-
-// The index of a point of the set that lies farthest along the direction (any length).
-int support(std::span<const Vec3> points, const Vec3& direction);
-
-// The pairs of support points at which GJK stopped. Handed back for a nearby pose, GJK starts there.
+// The pairs of support points at which GJK stopped, each in its own body's axes. Handed back for a nearby
+// pose, GJK starts there.
 struct SimplexCache {
-  std::array<int, 4> a{}, b{};
+  std::array<SupportPoint, 4> a, b;
   int count = 0;
 };
 

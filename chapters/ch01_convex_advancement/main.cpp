@@ -8,15 +8,17 @@ using namespace fc;
 
 int run(const Scene& scene, const RunContext& context, Summary& summary) {
   const std::vector<Shape> shapes = build_shapes(scene, false);
-  std::array<ca::Convex, 2> convex;
-  for (int i = 0; i < 2; ++i) {
-    const Shape& shape = shapes[scene.bodies[i].shape];
-    convex[i] = {shape.core.vertices, shape.radius, ca::reach_of(shape.core.vertices)};
-  }
+  const auto core_of = [&](int body) {
+    const Shape& shape = shapes[scene.bodies[body].shape];
+    return ca::ConvexCore(shape.core.vertices, shape.disks);
+  };
+  const ca::ConvexCore core_a = core_of(0), core_b = core_of(1);
+  const ca::Convex a = core_a.convex(shapes[scene.bodies[0].shape].radius);
+  const ca::Convex b = core_b.convex(shapes[scene.bodies[1].shape].radius);
   ca::run_queries(
       scene, shapes, ca::query_motions(scene, shapes),
-      [&](const ca::Motion& a, const ca::Motion& b, const ca::AdvanceOptions& options) {
-        return ca::advance(convex[0], a, convex[1], b, options);
+      [&](const ca::Motion& motion_a, const ca::Motion& motion_b, const ca::AdvanceOptions& options) {
+        return ca::advance(a, motion_a, b, motion_b, options);
       },
       context, summary);
   return 0;
@@ -36,7 +38,8 @@ int main(int argc, char** argv) {
   chapter.number = 1;
   chapter.name = "ch01_convex_advancement";
   chapter.purpose =
-      "Finds the first contact of two moving convex bodies (sphere, box, capsule, hull) by conservative "
+      "Finds the first contact of two moving convex bodies (sphere, box, capsule, cylinder, cone, hull) by "
+      "conservative "
       "advancement: "
       "never late, and within the tolerance. First true form: witness features are read from the simplex; "
       "queries with "

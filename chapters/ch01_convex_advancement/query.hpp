@@ -35,8 +35,9 @@ struct FeaturePair {
   int id_a = 0, id_b = 0;  // the vertex, edge or face (triangle) of the core's mesh; see the caller's text
 };
 
-// One advance: from time t, along `normal`, the pair has at least gap_lower and closes at most with
-// speed_bound, hence is clear for `advance` more seconds: speed_bound * advance <= gap_lower.
+// One advance: at time t the pair has at least gap_lower along `normal`, and h seconds later at least
+// gap_lower - speed_bound h, for every h up to `advance`. Hence it is clear during that time: speed_bound *
+// advance < gap_lower.
 struct CertificateRow {
   double t;  // s
   Vec3 normal;
@@ -48,7 +49,7 @@ struct CertificateRow {
 struct AdvanceOptions {
   double interval = 1;      // s, the query is about t in [0, interval]
   double tolerance = 1e-6;  // m: `contact` means that the witness points are at most this far apart
-  MotionBound bound = MotionBound::directional;
+  MotionBound bound = MotionBound::second_order;
   int max_iterations = 1'000'000;
   bool certificate = false;  // record every advance
 };

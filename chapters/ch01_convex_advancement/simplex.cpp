@@ -8,35 +8,35 @@ namespace {
 
 using Points = std::array<Vec3, 4>;
 
-SimplexPoint vertex(const Points& p, int i) {
-  SimplexPoint s;
+void vertex(const Points& p, int i, SimplexPoint& s) {
   s.count = 1;
   s.index[0] = i;
   s.weight[0] = 1;
   s.point = p[i];
-  return s;
+  s.direction = p[i];
 }
 
-SimplexPoint edge(const Points& p, int i, int j) {
+void edge(const Points& p, int i, int j, SimplexPoint& s) {
   const Vec3 e = p[j] - p[i];
   const double to_j = -p[i].dot(e);  // both positive: the origin projects between i and j
   const double to_i = p[j].dot(e);
-  if (!(to_j > 0)) return vertex(p, i);
-  if (!(to_i > 0)) return vertex(p, j);
-  SimplexPoint s;
+  if (!(to_j > 0)) return vertex(p, i, s);
+  if (!(to_i > 0)) return vertex(p, j, s);
   s.count = 2;
-  s.index = {i, j, 0, 0};
+  s.index[0] = i, s.index[1] = j;
   const double length2 = to_i + to_j;
-  s.weight = {to_i / length2, to_j / length2, 0, 0};
+  s.weight[0] = to_i / length2, s.weight[1] = to_j / length2;
   s.point = s.weight[0] * p[i] + s.weight[1] * p[j];
-  return s;
+  s.direction = s.point - e * (e.dot(s.point) / length2);
 }
 
-const SimplexPoint& closer(const SimplexPoint& a, const SimplexPoint& b) {
-  return b.point.squaredNorm() < a.point.squaredNorm() ? b : a;
+void closer_edge(const Points& p, int i, int j, SimplexPoint& best) {
+  SimplexPoint s;
+  edge(p, i, j, s);
+  if (s.point.squaredNorm() < best.point.squaredNorm()) best = s;
 }
 
-SimplexPoint triangle(const Points& p, int i, int j, int k) {
+void triangle(const Points& p, int i, int j, int k, SimplexPoint& s) {
   const Vec3 normal = (p[j] - p[i]).cross(p[k] - p[i]);
   const double area2 = normal.squaredNorm();  // (twice the area) squared
   // Signed areas of the three parts that the origin's projection cuts, times the whole area.
@@ -44,26 +44,31 @@ SimplexPoint triangle(const Points& p, int i, int j, int k) {
   const double at_j = normal.dot(p[k].cross(p[i]));
   const double at_k = normal.dot(p[i].cross(p[j]));
   if (area2 > 0 && at_i > 0 && at_j > 0 && at_k > 0) {
-    SimplexPoint s;
     s.count = 3;
-    s.index = {i, j, k, 0};
+    s.index[0] = i, s.index[1] = j, s.index[2] = k;
     const double sum = at_i + at_j + at_k;
-    s.weight = {at_i / sum, at_j / sum, at_k / sum, 0};
+    s.weight[0] = at_i / sum, s.weight[1] = at_j / sum, s.weight[2] = at_k / sum;
     // Along the normal the origin's distance is that of any corner: the mean of the corners keeps the most
     // digits.
-    s.point = normal * (normal.dot(p[i] + p[j] + p[k]) / (3 * area2));
-    return s;
+    const double along = normal.dot(p[i] + p[j] + p[k]);
+    s.point = normal * (along / (3 * area2));
+    s.direction = along < 0 ? Vec3(-normal) : normal;
+    return;
   }
-  SimplexPoint best = edge(p, i, j);
-  best = closer(best, edge(p, j, k));
-  return closer(best, edge(p, k, i));
+  // The closest point is on an edge, of those beyond which the origin lies (rounding: of all, if none).
+  const bool near_jk = !(at_i > 0), near_ki = !(at_j > 0), near_ij = !(at_k > 0);
+  s.point.setConstant(std::numeric_limits<double>::infinity());
+  const bool none = !(near_jk || near_ki || near_ij) || !(area2 > 0);
+  if (none || near_ij) closer_edge(p, i, j, s);
+  if (none || near_jk) closer_edge(p, j, k, s);
+  if (none || near_ki) closer_edge(p, i, k, s);
 }
 
-SimplexPoint tetrahedron(const Points& p) {
+void tetrahedron(const Points& p, SimplexPoint& best) {
+  const Vec3 p23 = p[2].cross(p[3]), p01 = p[0].cross(p[1]);
+  // Signed volumes with the origin in place of one corner; their sum is the whole.
+  const std::array<double, 4> part = {p[1].dot(p23), -p[0].dot(p23), p[3].dot(p01), -p[2].dot(p01)};
   const double volume = (p[1] - p[0]).dot((p[2] - p[0]).cross(p[3] - p[0]));
-  // Signed volumes with the origin in place of one corner.
-  const std::array<double, 4> part = {p[1].dot(p[2].cross(p[3])), -p[0].dot(p[2].cross(p[3])),
-                                      p[0].dot(p[1].cross(p[3])), -p[0].dot(p[1].cross(p[2]))};
   double scale = 0;
   for (const Vec3& x : p) scale = std::max(scale, x.squaredNorm());
   const double rounding = 32 * std::numeric_limits<double>::epsilon() * scale * std::sqrt(scale);
@@ -72,43 +77,39 @@ SimplexPoint tetrahedron(const Points& p) {
     bool inside = true;
     for (const double v : part) inside = inside && (volume > 0 ? v > 0 : v < 0);
     if (inside) {
-      SimplexPoint s;
-      s.count = 4;
-      s.index = {0, 1, 2, 3};
-      for (int i = 0; i < 4; ++i) s.weight[i] = part[i] / volume;
-      return s;  // point = 0
+      best.count = 4;
+      best.index = {0, 1, 2, 3};
+      for (int i = 0; i < 4; ++i) best.weight[i] = part[i] / volume;
+      best.point.setZero();
+      best.direction.setZero();
+      return;
     }
   }
   static constexpr int face[4][3] = {{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}};  // face[i] lacks corner i
-  SimplexPoint best;
   double best_distance2 = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 4; ++i) {
     // The origin lies beyond this face, or too near its plane to tell.
     const bool beyond = flat || part[i] * volume <= 0 || std::abs(part[i]) <= rounding;
     if (!beyond) continue;
-    const SimplexPoint candidate = triangle(p, face[i][0], face[i][1], face[i][2]);
+    SimplexPoint candidate;
+    triangle(p, face[i][0], face[i][1], face[i][2], candidate);
     const double distance2 = candidate.point.squaredNorm();
     if (distance2 < best_distance2) {
       best = candidate;
       best_distance2 = distance2;
     }
   }
-  return best;
 }
 
 }  // namespace
 
 SimplexPoint closest_to_origin(const Points& points, int count) {
-  switch (count) {
-    case 1:
-      return vertex(points, 0);
-    case 2:
-      return edge(points, 0, 1);
-    case 3:
-      return triangle(points, 0, 1, 2);
-    default:
-      return tetrahedron(points);
-  }
+  SimplexPoint s;
+  if (count == 1) vertex(points, 0, s);
+  if (count == 2) edge(points, 0, 1, s);
+  if (count == 3) triangle(points, 0, 1, 2, s);
+  if (count == 4) tetrahedron(points, s);
+  return s;
 }
 
 }  // namespace fc::ca

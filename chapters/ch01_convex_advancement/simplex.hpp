@@ -9,10 +9,14 @@ namespace fc::ca {
 
 // The smallest face of the simplex that has the closest point, and that point.
 struct SimplexPoint {
-  std::array<int, 4> index{};      // which of the given points span that face; the first `count` are used
-  std::array<double, 4> weight{};  // barycentric, > 0, sum 1
-  int count = 0;                   // 1 vertex, 2 edge, 3 triangle, 4: the origin is inside the tetrahedron
-  Vec3 point = Vec3::Zero();       // sum of weight[i] * points[index[i]]
+  std::array<int, 4>
+      index;  // which of the given points span that face, ascending; the first `count` are used
+  std::array<double, 4> weight;  // barycentric, > 0, sum 1
+  int count;                     // 1 vertex, 2 edge, 3 triangle, 4: the origin is inside the tetrahedron
+  Vec3 point;                    // sum of weight[i] * points[index[i]]
+  // Along `point`, of any length, but with the digits that the point itself lost by cancellation: exactly
+  // across the edge or the face. A plane that leans by a hair against a long face would certify much less.
+  Vec3 direction;
 };
 
 // Closest point to the origin of the convex hull of `count` (1 to 4) points, by signed volumes: barycentric

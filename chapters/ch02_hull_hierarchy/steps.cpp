@@ -43,21 +43,13 @@ struct Side {
       const double closing = speed + turn.dot(x) - plane_speed + noise;
       const double k = bend + 0.5 * turn_size * spin.cross(x).norm();
       if (best < kInfinity && closing * best + std::max(k, 0.0) * best * best <= free) continue;
-      best = std::min(best, crossing_time(closing, k, free));
+      best = std::min(best, ca::crossing_time(closing, k, free));
     }
     return best;
   }
 };
 
 }  // namespace
-
-double crossing_time(double c, double k, double room) {
-  const double discriminant = c * c + 4 * k * room;
-  if (discriminant < 0) return kInfinity;
-  const double root = std::sqrt(discriminant);
-  if (c < 0) return k > 0 ? (root - c) / (2 * k) : kInfinity;
-  return c + root > 0 ? 2 * room / (c + root) : kInfinity;
-}
 
 SafeStep ball_step(const ca::Motion& a, const ca::Convex& node_a, double radius_a, const ca::Motion& b,
                    const ca::Convex& node_b, double radius_b, const ca::PairPose& pose, const Vec3& n,
@@ -76,7 +68,7 @@ SafeStep ball_step(const ca::Motion& a, const ca::Convex& node_a, double radius_
   const double k = 0.5 * (rate_a * a.spin.cross(middle_a).norm() + rate_b * b.spin.cross(middle_b).norm()) +
                    0.5 * std::max(0.0, fall);
   SafeStep step;
-  step.time = crossing_time(c, k, room);
+  step.time = ca::crossing_time(c, k, room);
   // About the centres of mass: chapter 1's bound, which does not grow with time.
   const double whole =
       linear + std::max(0.0, fall * (end - t)) + rate_a * node_a.reach + rate_b * node_b.reach + noise;

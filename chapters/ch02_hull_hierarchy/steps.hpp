@@ -6,10 +6,6 @@
 
 namespace fc::hulls {
 
-// The smallest h > 0 (s) with  c h + k h^2 = room,  or infinity: how long something that starts with closing
-// speed c (m/s) and bends by at most k (m/s^2) needs to cross `room` (m, >= 0).
-double crossing_time(double c, double k, double room);
-
 struct SafeStep {
   double time = 0;   // s, may be infinite
   double speed = 0;  // m/s, no pair of points closes in faster along n during that time, on average

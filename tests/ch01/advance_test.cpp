@@ -82,7 +82,8 @@ TEST(Advance, ARodsTipMeetsAFace) {
   const double radius = 0.05, length = 2, rate = 3, wall = 0.7;
   const Solid rod = capsule(radius, length), face = box({1, 10, 10});
   const double angle = std::asin((wall - radius) / (length / 2));
-  for (const ca::MotionBound bound : {ca::MotionBound::directional, ca::MotionBound::naive}) {
+  for (const ca::MotionBound bound : {ca::MotionBound::second_order, ca::MotionBound::projected,
+                                      ca::MotionBound::directional, ca::MotionBound::naive}) {
     ca::AdvanceOptions options;
     options.bound = bound;
     const ca::AdvanceResult r = ask(rod, motion({0, 0, 0}, along_y, Vec3::Zero(), {0, 0, -rate}), face,

@@ -143,8 +143,10 @@ RC_GTEST_PROP(Gjk, AnyCacheGivesTheSameDistance, ()) {
   ca::SimplexCache cache;
   cache.count = integer(random, 1, 4);
   for (int k = 0; k < 4; ++k) {
-    cache.a[k] = integer(random, 0, static_cast<int>(a.core.vertices.size()) - 1);
-    cache.b[k] = integer(random, 0, static_cast<int>(b.core.vertices.size()) - 1);
+    const int i = integer(random, 0, static_cast<int>(a.core.vertices.size()) - 1);
+    const int j = integer(random, 0, static_cast<int>(b.core.vertices.size()) - 1);
+    cache.a[k] = {a.core.vertices[i], i};
+    cache.b[k] = {b.core.vertices[j], j};
   }
   const ca::GjkOptions options{1e-12, 1e-12, 128};
   const ca::GjkResult cold = ca::distance(a.convex(), b.convex(), pose_of(ma, mb), options);

@@ -11,6 +11,7 @@ namespace {
 using namespace fc;
 using namespace fc::hulls;
 using namespace fc::test;
+using ca::crossing_time;
 
 TEST(CrossingTime, ClosedForms) {
   EXPECT_DOUBLE_EQ(crossing_time(2, 0, 6), 3);

@@ -1,0 +1,38 @@
+#include "ch01_convex_advancement/principal_inertia.hpp"
+
+#include <fmt/core.h>
+
+#include <Eigen/Eigenvalues>
+#include <stdexcept>
+#include <string>
+
+namespace fc::ca {
+
+namespace {
+
+std::string text(const Vec3& v) {
+  return fmt::format("({}, {}, {})", v.x(), v.y(), v.z());
+}
+
+}  // namespace
+
+PrincipalInertia::PrincipalInertia(const Mat3& inertia) {
+  using LongMat = Eigen::Matrix<long double, 3, 3>;  // a small moment beside large ones keeps its digits
+  const std::string tensor = fmt::format("the inertia tensor with rows {}, {}, {} kg m^2 ", text(inertia.row(0)),
+                                         text(inertia.row(1)), text(inertia.row(2)));
+  if (!inertia.allFinite()) throw std::invalid_argument(tensor + "is not finite");
+  const double largest = inertia.cwiseAbs().maxCoeff();
+  if (!((inertia - inertia.transpose()).cwiseAbs().maxCoeff() <= 1e-12 * largest))
+    throw std::invalid_argument(tensor + "is not symmetric");
+  const LongMat matrix = inertia.cast<long double>();
+  const Eigen::SelfAdjointEigenSolver<LongMat> solver((matrix + matrix.transpose()) / 2);
+  moments = solver.eigenvalues().cast<double>();
+  axes = solver.eigenvectors().cast<double>();
+  axes.col(2) = axes.col(0).cross(axes.col(1));
+  const std::string values = "the principal moments of inertia " + text(moments) + " kg m^2 ";
+  if (!(moments[0] > 0)) throw std::invalid_argument(values + "are not all positive");
+  if (moments[2] - moments[1] > moments[0] + 1e-9 * moments[2])
+    throw std::invalid_argument(values + "are those of no mass: the largest exceeds the sum of the others");
+}
+
+}  // namespace fc::ca
