@@ -69,7 +69,7 @@ class BrowserTest(unittest.TestCase):
         (cls.folder / "balls.yaml").write_text(BALLS)
         (cls.folder / "crowd.yaml").write_text(CROWD)
         cls.balls = run("ch04_multibody_stepping", cls.folder / "balls.yaml", cls.folder / "balls")
-        cls.page = Page(seconds=240)
+        cls.page = Page(seconds=900)
 
     @classmethod
     def tearDownClass(cls):
@@ -233,7 +233,7 @@ if __name__ == "__main__":
     if len(sys.argv) > 1:
         BIN = Path(sys.argv.pop(1))
     try:
-        Page(seconds=30).close()
+        Page(seconds=120).close()
     except NoBrowser as reason:
         print(f"skipped: {reason}")
         sys.exit(1 if os.environ.get("FC_BROWSER_REQUIRED") == "1" else 77)
