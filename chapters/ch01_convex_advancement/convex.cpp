@@ -18,8 +18,8 @@ struct Square {
   int u, v;
   double half;
 
-  // Whether for each direction of the square some point of `rivals`, the same for all, lies farther than p,
-  // so that p need not be looked at.
+  // Whether the rival lies farther than p along every direction of the square, so that p need not be looked
+  // at.
   bool hides(const Vec3& rival, const Vec3& p, double rounding) const {
     const Vec3 ahead = rival - p;
     return middle.dot(ahead) - half * (std::abs(ahead[u]) + std::abs(ahead[v])) > rounding;
