@@ -1,4 +1,4 @@
-// The only file that includes CLI11, which takes seconds to compile.
+// Of the library, the only file that includes CLI11, which takes seconds to compile.
 #include "common/options.hpp"
 
 #include <CLI/CLI.hpp>

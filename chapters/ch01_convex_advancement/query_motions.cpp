@@ -1,10 +1,8 @@
 // Reading motions files.
-#include <charconv>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
 #include "ch01_convex_advancement/query_run.hpp"
+#include "common/table_reader.hpp"
 
 namespace fc::ca {
 namespace {
@@ -14,19 +12,6 @@ constexpr double kLargest = 1e9;  // of any cell: the range of positions, veloci
 const std::array<const char*, kCellsPerBody> kNames = {"px", "py", "pz", "qw", "qx", "qy", "qz",
                                                        "vx", "vy", "vz", "wx", "wy", "wz"};
 
-std::vector<std::string> split(std::string line) {
-  if (!line.empty() && line.back() == '\r') line.pop_back();
-  std::vector<std::string> cells;
-  std::stringstream stream(line);
-  for (std::string cell; std::getline(stream, cell, ',');) {
-    const auto first = cell.find_first_not_of(" \t");
-    const auto last = cell.find_last_not_of(" \t");
-    cells.push_back(first == std::string::npos ? "" : cell.substr(first, last - first + 1));
-  }
-  if (!line.empty() && line.back() == ',') cells.emplace_back();
-  return cells;
-}
-
 std::string header_text() {
   std::string text;
   for (const char* body : {"a_", "b_"})
@@ -34,14 +19,12 @@ std::string header_text() {
   return text;
 }
 
-double number(const std::string& cell, const SourceMark& where) {
-  double value = 0;
-  const char* end = cell.data() + cell.size();
-  const auto [rest, error] = std::from_chars(cell.data(), end, value);
-  if (error != std::errc() || rest != end || !std::isfinite(value))
-    throw InputError(where, "\"" + cell + "\" is not a finite number; write one, for example 0.5");
+double number(const ReadTable& table, const ReadTable::Row& row, int column) {
+  const double value = table.number(row, column);
   if (std::abs(value) > kLargest)
-    throw InputError(where, cell + " is out of range [-1e9, 1e9], as in scenes; write a smaller number");
+    throw InputError(
+        table.mark(row, column),
+        row.cells[column] + " is out of range [-1e9, 1e9], as in scenes; write a smaller number");
   return value;
 }
 
@@ -63,29 +46,17 @@ Motion motion_from(const std::array<double, kCellsPerBody>& x, const Shape& shap
 }
 
 std::vector<QueryMotions> read_motions(const Scene& scene, const Shape& shape_a, const Shape& shape_b) {
-  const std::string file = scene.motions->string();
-  std::ifstream stream(file);
-  if (!stream) throw InputError({file}, "cannot be read; check its path and permissions");
-  std::string line;
-  if (!std::getline(stream, line) || split(line) != split(header_text()))
-    throw InputError({file, 1, 1}, "the header must be " + header_text());
+  const ReadTable table = read_table(*scene.motions, header_text());
   std::vector<QueryMotions> queries;
-  for (int row = 2; std::getline(stream, line); ++row) {
-    if (line.empty() || line == "\r") continue;
-    const std::vector<std::string> cells = split(line);
-    if (cells.size() != 2 * kCellsPerBody)
-      throw InputError({file, row, 1}, std::to_string(cells.size()) + " cells; a row has " +
-                                           std::to_string(2 * kCellsPerBody) + ", as the header");
+  for (const ReadTable::Row& row : table.rows) {
     std::array<double, kCellsPerBody> a{}, b{};
-    int column = 1;
-    for (int k = 0; k < 2 * kCellsPerBody; ++k) {
-      (k < kCellsPerBody ? a[k] : b[k - kCellsPerBody]) = number(cells[k], {file, row, column});
-      column += static_cast<int>(cells[k].size()) + 1;
-    }
-    queries.push_back({motion_from(a, shape_a, scene.bodies[0], {file, row, 1}),
-                       motion_from(b, shape_b, scene.bodies[1], {file, row, 1})});
+    for (int k = 0; k < 2 * kCellsPerBody; ++k)
+      (k < kCellsPerBody ? a[k] : b[k - kCellsPerBody]) = number(table, row, k);
+    queries.push_back({motion_from(a, shape_a, scene.bodies[0], table.mark(row, 0)),
+                       motion_from(b, shape_b, scene.bodies[1], table.mark(row, 0))});
   }
-  if (queries.empty()) throw InputError({file}, "has no queries; write one row for each below the header");
+  if (queries.empty())
+    throw InputError({table.file}, "has no queries; write one row for each below the header");
   return queries;
 }
 

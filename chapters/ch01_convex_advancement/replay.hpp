@@ -1,0 +1,76 @@
+// Certificates checked: does every row claim what is true, and do the rows prove the answer?
+//
+// Nothing here uses GJK, the motion bounds or double precision: a row is not asked by which formula it was
+// made, only whether it is true. All arithmetic is in long double (64 bits of mantissa or more), whose
+// rounding is bounded in replay.cpp and taken off; it is 2000 times smaller than the rounding term that
+// chapter 1 has already taken off its gaps. Interval arithmetic would prove no more with more code.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "ch01_convex_advancement/query.hpp"
+#include "common/shape.hpp"
+
+namespace fc::ca {
+
+using Long = long double;
+using LongVec = Eigen::Matrix<Long, 3, 1>;
+
+// The convex hull of points, each with a disk about it across local z, rounded by a ball.
+struct ReplayShape {
+  std::vector<LongVec> points;  // m, about the centre of mass, body axes
+  std::vector<Long> disks;      // m, the radius of each point's disk; empty: no disks
+  Long radius = 0;              // m, of the ball
+  Long reach = 0;               // m, the largest distance from the centre of mass, without the ball
+};
+ReplayShape replay_shape(const Shape& shape);
+
+// What was asked: as the program reads it, with the poses and velocities that it starts from.
+struct ReplayQuery {
+  const ReplayShape& shape_a;
+  const ReplayShape& shape_b;
+  Motion motion_a, motion_b;
+  double interval;   // s
+  double tolerance;  // m
+};
+
+// What was answered: a row of queries.csv.
+struct ReplayAnswer {
+  Status status;
+  double toc;  // as a fraction of the interval
+  double gap_lower, gap_upper;
+};
+
+// For a fixed n (unit, from A to B), shows that the gap along n, h seconds after t, is at least the straight
+// line gap - speed h, for every h in [0, duration].
+//
+// A point r of a body (from its centre of mass, world axes at t) moves along n by
+//   h n.v + h^2/2 n.a + h n.(w x r)  and a rest of at most  h^2/2 |n x w| |w| |r| ,
+// so with the support function in the direction n + h (n x w) the whole body's farthest point after h seconds
+// is known up to that rest. What it leaves of the gap above the line is concave in h: if it is >= 0 at both
+// ends of a step it is so in between. Steps are halved until that can be shown. The error of a step shrinks
+// with its square, so whatever is true by more than rounding is shown in the end.
+struct ReplayProof {
+  bool proved = false;
+  Long reached = 0;  // s, after t: proved until here
+  Long gap = 0;      // m, along n at that time
+  int evaluations = 0;
+};
+ReplayProof prove_above(const ReplayQuery& query, const LongVec& n, Long t, Long gap, Long speed,
+                        Long duration);
+
+// One thing that is wrong: with a row of the certificate, or (row = -1) with the answer.
+struct Refusal {
+  int row;
+  std::string what;
+};
+
+// Everything that is wrong with an answer and its certificate; empty if each row is true and all of them
+// together prove the pair clear from 0 to toc. That it is within the tolerance at toc is not the
+// certificate's business: features.csv has two points of the surfaces for that.
+std::vector<Refusal> replay(const ReplayQuery& query, const ReplayAnswer& answer,
+                            const std::vector<CertificateRow>& rows);
+
+}  // namespace fc::ca
