@@ -32,8 +32,7 @@ struct ReplayQuery {
   const ReplayShape& shape_a;
   const ReplayShape& shape_b;
   Motion motion_a, motion_b;
-  double interval;   // s
-  double tolerance;  // m
+  double interval;  // s
 };
 
 // What was answered: a row of queries.csv.

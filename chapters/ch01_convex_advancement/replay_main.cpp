@@ -127,7 +127,7 @@ int check(const Arguments& arguments) {
     lines.push_back(fmt::format("{}:{}: {}", run.certificate.file, line, what));
   Progress progress("queries", static_cast<std::int64_t>(queries.size()), arguments.quiet);
   for (std::size_t q = 0; q < queries.size(); ++q) {
-    const ca::ReplayQuery query{a, b, queries[q].a, queries[q].b, scene.interval, scene.ccd.tolerance};
+    const ca::ReplayQuery query{a, b, queries[q].a, queries[q].b, scene.interval};
     for (const ca::Refusal& refusal : ca::replay(query, run.answers[q], run.certificates[q].rows)) {
       const bool of_answer = refusal.row < 0;
       lines.push_back(fmt::format(

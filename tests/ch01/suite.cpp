@@ -66,8 +66,7 @@ std::string check_monotonicity(const Query& q, const AdvanceResult& r) {
 
 std::string check_certificate(const Query& q, const AdvanceResult& r) {
   const fc::ca::ReplayShape a = replay_shape(q.a.shape), b = replay_shape(q.b.shape);
-  const fc::ca::ReplayQuery query{
-      a, b, motion_of(q.a.flight), motion_of(q.b.flight), q.options.interval, r.tolerance};
+  const fc::ca::ReplayQuery query{a, b, motion_of(q.a.flight), motion_of(q.b.flight), q.options.interval};
   const fc::ca::ReplayAnswer answer{r.status, r.toc / q.options.interval, r.gap_lower, r.gap_upper};
   const auto wrong = fc::ca::replay(query, answer, r.certificate);
   return wrong.empty() ? "" : "certificate row " + std::to_string(wrong[0].row) + ": " + wrong[0].what;

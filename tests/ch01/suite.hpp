@@ -13,7 +13,8 @@
 namespace suite {
 
 enum class Kind { sphere, capsule, box, hull, cylinder, cone };
-inline constexpr std::array kKinds = {Kind::sphere, Kind::capsule, Kind::box, Kind::hull, Kind::cylinder, Kind::cone};
+inline constexpr std::array kKinds = {Kind::sphere, Kind::capsule,  Kind::box,
+                                      Kind::hull,   Kind::cylinder, Kind::cone};
 
 enum class Story {
   translating,  // no spin
