@@ -96,10 +96,10 @@ Verdict check(const Query& q, std::uint64_t number) {
   }
   const truth::FirstTime first = truth::first_time(q.a, q.b, r.toc, 0, 0, kMostLooks);
   verdict.looks = first.looks;
-  if (first.upper <= r.toc)
+  if (r.toc > 0 && first.upper <= r.toc)
     verdict.wrong = r.status == Status::separated ? "missed" : "late";
   else
-    verdict.undecided = first.verdict != truth::FirstTime::Verdict::never;
+    verdict.undecided = r.toc > 0 && first.verdict != truth::FirstTime::Verdict::never;
   if (verdict.wrong.empty()) verdict.wrong = check_toc(q, r);
   if (verdict.wrong.empty() && number % 3 == 0) verdict.wrong = check_monotonicity(q, r);
   if (verdict.wrong.empty() && q.options.certificate) verdict.wrong = check_certificate(q, r);

@@ -72,15 +72,20 @@ struct Simplex {
     return {1 - w1 - w2 - w3, w1, w2, w3};
   }
 
-  // Tries every choice of corners. Whatever has weights >= 0 is a point of the hull; the nearest one is kept,
-  // with its corners.
-  void reduce() {
+  // Takes one more point in. Every choice of corners with it is tried: whatever has weights >= 0 is a point
+  // of the hull; the nearest one is kept, with its corners. (Choices without it were tried before.)
+  void add(const V& point) {
+    p[count] = point;
     Simplex best;
     Real least = kInfinity;
-    for (int chosen = 1; chosen < 1 << count; ++chosen) {
+    if (count > 0) {
+      best = *this;
+      least = nearest.squaredNorm();
+    }
+    for (int chosen = 1 << count; chosen < 2 << count; ++chosen) {
       std::array<V, 4> c{V::Zero(), V::Zero(), V::Zero(), V::Zero()};
       int n = 0;
-      for (int i = 0; i < count; ++i)
+      for (int i = 0; i <= count; ++i)
         if (chosen >> i & 1) c[n++] = p[i];
       const std::array<Real, 4> w = weights(c, n);
       V x = V::Zero();
@@ -166,8 +171,7 @@ struct Pair {
         result.normal = n;
       }
       if (lower > enough || nearest - radii - result.lower <= 2 * off) break;
-      simplex.p[simplex.count++] = p;
-      simplex.reduce();
+      simplex.add(p);
       const Real size = simplex.nearest.norm();
       idle = size < nearest ? 0 : idle + 1;
       nearest = std::min(nearest, size);
