@@ -49,7 +49,6 @@ std::string check_toc(const Query& q, const AdvanceResult& r) {
     if (!(r.toc > 0)) return "contact at toc = 0";
     if (r.gap_upper > r.tolerance) return "contact with gap_upper above the tolerance";
     if (g.lower > r.tolerance) return "false contact";
-    if (!(r.gap_lower > 0)) return "contact without a certified gap";
   }
   if (r.status == Status::separated && r.toc != q.options.interval)
     return "separated, but toc is not the end";
@@ -100,6 +99,7 @@ Verdict check(const Query& q, std::uint64_t number) {
     verdict.wrong = r.status == Status::separated ? "missed" : "late";
   else
     verdict.undecided = r.toc > 0 && first.verdict != truth::FirstTime::Verdict::never;
+  verdict.uncertified = r.status == Status::contact && !(r.gap_lower > 0);
   if (verdict.wrong.empty()) verdict.wrong = check_toc(q, r);
   if (verdict.wrong.empty() && number % 3 == 0) verdict.wrong = check_monotonicity(q, r);
   if (verdict.wrong.empty() && q.options.certificate) verdict.wrong = check_certificate(q, r);

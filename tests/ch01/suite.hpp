@@ -50,9 +50,10 @@ fc::ca::AdvanceResult ask(const Query& query, double tolerance);
 
 struct Verdict {
   fc::ca::Status status = fc::ca::Status::unresolved;
-  std::string wrong;       // what does not hold; empty: all does
-  bool undecided = false;  // the reference could not tell whether the pair was clear before toc
-  int looks = 0;           // of the reference
+  std::string wrong;         // what does not hold; empty: all does
+  bool undecided = false;    // the reference could not tell whether the pair was clear before toc
+  bool uncertified = false;  // a contact whose gap_lower is not > 0: allowed, but GJK's bounds did not meet
+  int looks = 0;             // of the reference
 };
 
 // What is checked, for each answer:

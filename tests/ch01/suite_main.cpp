@@ -16,11 +16,12 @@ using fc::ca::Status;
 
 struct Totals {
   std::map<Status, std::uint64_t> of;
-  std::uint64_t queries = 0, undecided = 0, wrong = 0, looks = 0;
+  std::uint64_t queries = 0, uncertified = 0, undecided = 0, wrong = 0, looks = 0;
 
   void add(const suite::Verdict& v) {
     ++queries;
     ++of[v.status];
+    uncertified += v.uncertified ? 1 : 0;
     undecided += v.undecided ? 1 : 0;
     wrong += v.wrong.empty() ? 0 : 1;
     looks += static_cast<std::uint64_t>(v.looks);
@@ -28,14 +29,16 @@ struct Totals {
   void add(const Totals& other) {
     for (const auto& [status, n] : other.of) of[status] += n;
     queries += other.queries;
+    uncertified += other.uncertified;
     undecided += other.undecided;
     wrong += other.wrong;
     looks += other.looks;
   }
   std::string row(const std::string& name) {
-    return fmt::format("{:12}{:>10}{:>10}{:>10}{:>10}{:>12}{:>11}{:>10}{:>7}{:>12.1f}\n", name, queries,
+    return fmt::format("{:12}{:>10}{:>10}{:>10}{:>10}{:>12}{:>11}{:>12}{:>10}{:>7}{:>12.1f}\n", name, queries,
                        of[Status::contact], of[Status::separated], of[Status::touching_at_start],
-                       of[Status::penetrating_at_start], of[Status::unresolved], undecided, wrong,
+                       of[Status::penetrating_at_start], of[Status::unresolved], uncertified, undecided,
+                       wrong,
                        static_cast<double>(looks) / static_cast<double>(std::max<std::uint64_t>(1, queries)));
   }
 };
@@ -83,8 +86,9 @@ int main(int argc, char** argv) {
   for (unsigned i = 0; i < threads; ++i) team.emplace_back(work);
   for (std::thread& t : team) t.join();
 
-  fmt::print("{:12}{:>10}{:>10}{:>10}{:>10}{:>12}{:>11}{:>10}{:>7}{:>12}\n", "story", "queries", "contact",
-             "separated", "touching", "penetrating", "unresolved", "undecided", "wrong", "looks/query");
+  fmt::print("{:12}{:>10}{:>10}{:>10}{:>10}{:>12}{:>11}{:>12}{:>10}{:>7}{:>12}\n", "story", "queries",
+             "contact", "separated", "touching", "penetrating", "unresolved", "uncertified", "undecided",
+             "wrong", "looks/query");
   Totals all;
   for (auto& [story, t] : totals) {
     all.add(t);

@@ -18,7 +18,7 @@ class Suite : public testing::TestWithParam<suite::Story> {};
 
 TEST_P(Suite, HoldsForEveryPairOfKinds) {
   const auto story = static_cast<std::uint64_t>(GetParam());
-  int undecided = 0, unresolved = 0, contacts = 0, separated = 0, starts = 0;
+  int undecided = 0, unresolved = 0, uncertified = 0, contacts = 0, separated = 0, starts = 0;
   for (std::uint64_t i = 0; i < kRounds * kPairs; ++i) {
     const std::uint64_t number = story + i * suite::kStories.size();
     const suite::Verdict v = suite::check(suite::query_of(20080101, number), number);
@@ -26,6 +26,7 @@ TEST_P(Suite, HoldsForEveryPairOfKinds) {
                            << number;
     unresolved += v.status == Status::unresolved;
     undecided += v.undecided;
+    uncertified += v.uncertified;
     contacts += v.status == Status::contact;
     separated += v.status == Status::separated;
     starts += v.status == Status::touching_at_start || v.status == Status::penetrating_at_start;
@@ -34,6 +35,7 @@ TEST_P(Suite, HoldsForEveryPairOfKinds) {
   EXPECT_LE(100 * undecided, all) << "the reference should be able to tell in 99 % of the queries";
   // A start that overlaps by less than the tolerance may be too near to touching to tell.
   EXPECT_LE(100 * unresolved, GetParam() == suite::Story::start ? all : 0);
+  EXPECT_LE(1000 * uncertified, all);
   // The queries are worth asking: none of the answers is rare.
   if (GetParam() == suite::Story::start)
     EXPECT_GE(4 * starts, all);
