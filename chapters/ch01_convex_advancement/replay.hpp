@@ -46,7 +46,7 @@ struct ReplayAnswer {
 // line gap - speed h, for every h in [0, duration].
 //
 // A point r of a body (from its centre of mass, world axes at t) moves along n by
-//   h n.v + h^2/2 n.a + h n.(w x r)  and a rest of at most  h^2/2 |n x w| |w| |r| ,
+//   h n.v + h^2/2 n.a + h n.(w x r)  and a rest of at most  h^2/2 |n x w| |w x r| ,
 // so with the support function in the direction n + h (n x w) the whole body's farthest point after h seconds
 // is known up to that rest. What it leaves of the gap above the line is concave in h: if it is >= 0 at both
 // ends of a step it is so in between. Steps are halved until that can be shown. The error of a step shrinks
