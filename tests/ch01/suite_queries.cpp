@@ -212,7 +212,9 @@ Query query_of(std::uint64_t seed, std::uint64_t number) {
   }
   q.options.interval = interval;
   q.options.tolerance = size * magnitude(random, 1e-9, 1e-4);
-  q.options.max_iterations = 20'000;
+  // Every bound, the default one most often.
+  if (integer(random, 0, 2) == 0) q.options.bound = static_cast<fc::ca::MotionBound>(integer(random, 0, 2));
+  q.options.max_iterations = 100'000;
   q.options.certificate = number % 4 == number / 40 % 4;  // every story and every pair in its turn
   return q;
 }
