@@ -62,9 +62,13 @@ AdvanceResult advance(const Convex& shape_a, const Motion& motion_a, const Conve
     const GjkOptions accuracy{0.125 * result.tolerance, kFar, 128};
     GjkResult g = distance(shape_a, shape_b, pose, accuracy, &cache);
     ++result.distance_calls;
-    if (t == 0 && g.status == GjkResult::Status::overlapping) {
-      const GjkResult plane = touching_plane(shape_a, shape_b, pose, 16 * result.tolerance, g.normal);
+    // No plane yet that tells touching from overlapping: GJK found none, or stopped at a poor one.
+    const bool doubtful = g.status == GjkResult::Status::overlapping ||
+                          (g.upper <= result.tolerance && g.lower < -result.tolerance);
+    if (t == 0 && doubtful) {
+      GjkResult plane = touching_plane(shape_a, shape_b, pose, 16 * result.tolerance, g.normal);
       result.distance_calls += kTouchingPlaneCalls;
+      plane.upper = g.upper;
       if (g.cache.count == 0 || plane.lower > g.lower) g = plane;
     }
     result.toc = t;

@@ -43,6 +43,12 @@ TEST_P(Suite, HoldsForEveryPairOfKinds) {
     EXPECT_GE(20 * std::min(contacts, separated), all);
 }
 
+// Queries of the long runs that an earlier version, of the engine or of the replay, got wrong.
+TEST(Suite, QueriesThatOnceFailed) {
+  for (const auto& [seed, number] : {std::pair{2026, 295634}, std::pair{2026, 847799}})
+    EXPECT_EQ(suite::check(suite::query_of(seed, number), number).wrong, "") << seed << ", " << number;
+}
+
 INSTANTIATE_TEST_SUITE_P(Stories, Suite, testing::ValuesIn(suite::kStories),
                          [](const auto& story) { return name_of(story.param); });
 
