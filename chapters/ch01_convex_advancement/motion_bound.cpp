@@ -16,9 +16,15 @@ constexpr double kRounding =
 constexpr int kMostTurns = 8;  // supports in turned directions for one step; one or two do as a rule
 
 double reach_for(MotionBound bound, const Convex& shape, const Motion& motion) {
-  if (bound < MotionBound::projected || motion.spin_rate == 0) return shape.reach;
+  if (bound < MotionBound::projected || motion.spin_rate == 0 || motion.free) return shape.reach;
   return reach_across(
       shape, motion.rotation.transpose() * motion.spin_axis);  // turns with the body: the same at any time
+}
+
+// How well the velocities that belong to a spin are known, in rad/s: kRounding times this. A pose that is off
+// by some angle turns them by it; a spin that changes is known no better than the pose.
+double spin_noise(const Motion& motion, double turned, double rate) {
+  return motion.free ? turned * motion.spin_bound() : (1 + 0.5 * turned) * rate;
 }
 
 }  // namespace
@@ -52,8 +58,8 @@ double MovingPair::closing_speed_bound(const Vec3& n, double t, double end) cons
   const double linear = n.dot(velocity + t * acceleration) + std::max(0.0, pull * (end - t));
   // ANCHOR: bound
   const bool naive = bound_ == MotionBound::naive;
-  const double turn_a = naive ? a_.motion.spin_rate : n.cross(a_.motion.spin).norm();
-  const double turn_b = naive ? b_.motion.spin_rate : n.cross(b_.motion.spin).norm();
+  const double turn_a = naive ? a_.motion.spin_bound() : a_.motion.turning_bound(n);
+  const double turn_b = naive ? b_.motion.spin_bound() : b_.motion.turning_bound(n);
   const double angular = turn_a * a_.reach + turn_b * b_.reach;
   // ANCHOR_END: bound
   const double summed = velocity.norm() + end * acceleration.norm() + angular;
@@ -71,17 +77,22 @@ double MovingPair::safe_time(const PairPose& pose, const Vec3& n, double gap, do
 double MovingPair::second_order_time(const PairPose& pose, const Vec3& n, double target, double t,
                                      double remaining) const {
   // The normal, and its speed in the body's axes if the body is held fast.
-  const Vec3 cross_a = n.cross(a_.motion.spin), cross_b = n.cross(b_.motion.spin);
+  const Vec3 cross_a = n.cross(a_.motion.spin_at(t)), cross_b = n.cross(b_.motion.spin_at(t));
   const Vec3 n_a = pose.rotation_a.transpose() * n, n_b = pose.rotation_b.transpose() * n;
   const Vec3 turn_a = pose.rotation_a.transpose() * cross_a, turn_b = pose.rotation_b.transpose() * cross_b;
   const Vec3 velocity =
       (b_.motion.velocity - a_.motion.velocity) + t * (b_.motion.acceleration - a_.motion.acceleration);
-  const double rate_a = cross_a.norm(), rate_b = cross_b.norm();
+  // |n.(d2r/dt2)| per metre of reach: n.(dw/dt x r) + (n x w).(w x r).
+  const double rate_a = a_.motion.turning_bound(n), rate_b = b_.motion.turning_bound(n);
+  const double bend_a = rate_a * a_.motion.spin_bound() + a_.motion.spin_change_bound(),
+               bend_b = rate_b * b_.motion.spin_bound() + b_.motion.spin_change_bound();
   const double bend = 0.5 *
-                      (rate_a * a_.motion.spin_rate * a_.reach + rate_b * b_.motion.spin_rate * b_.reach +
+                      (bend_a * a_.reach + bend_b * b_.reach +
                        std::max(0.0, n.dot(a_.motion.acceleration - b_.motion.acceleration))) *
                       (1 + kRounding);
-  const double noise = kRounding * (velocity.norm() + rate_a * a_.shape.reach + rate_b * b_.shape.reach);
+  const double noise =
+      kRounding * (velocity.norm() + spin_noise(a_.motion, pose.turned_a, rate_a) * a_.shape.reach +
+                   spin_noise(b_.motion, pose.turned_b, rate_b) * b_.shape.reach);
   const double closing = noise - n.dot(velocity);
   const double middle = n.dot(pose.offset_world) - a_.shape.radius - b_.shape.radius -
                         rounding_term(a_.shape, b_.shape, pose) - target;

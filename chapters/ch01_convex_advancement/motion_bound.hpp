@@ -32,6 +32,9 @@ class MovingPair {
   //   directional   n.(v_A - v_B) + |n x w_A| R_A + |n x w_B| R_B       since n.(w x r) = (n x w).r
   //   projected     the same with the reach about the axis of the spin: only the part of r across it counts
   //
+  // For a body that turns freely |w| and |n x w| stand for their largest values, and R for the reach about
+  // the centre of mass.
+  //
   // A result <= 0 proves that the pair does not close along n until `end`. An acceleration changes n.(v_A -
   // v_B) linearly, so its larger end counts; equal accelerations cancel. A rounding radius moves with the
   // centre of its ball and adds nothing. Mirtich (1996); Zhang, Lee, Kim, "Interactive Continuous Collision
@@ -42,7 +45,8 @@ class MovingPair {
   // now (m, certified, > target; the pose is given) to (1 - kStepSlack) target (m, > 0) then; infinity: above
   // that until `end`. Besides the speed bound (gap - target) / speed, second_order tries
   //
-  //   along n a point r of a body moves by  h n.(v + w x r)  and at most  h^2/2 |n x w| |w| across(r)  more,
+  //   along n a point r of a body moves by  h n.(v + w x r)  and at most  h^2/2 |n x w| |w| across(r)  more
+  //   (if it turns freely: h^2/2 (|n x w| |w| + |dw/dt|) |r|, the largest values),
   //
   // for all points at once: n.(w x r) = (n x w).r, so that the support mapping in the turned direction n + h
   // (n x w) answers which point is ahead after h seconds. What is left of the gap is then concave in h: if it

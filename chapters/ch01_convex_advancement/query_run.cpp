@@ -82,7 +82,7 @@ MotionRecording recorded(const Scene& scene, const std::vector<Shape>& shapes, c
       body.position = m.position_at(t);
       body.orientation = Quat(m.rotation_at(t));
       body.velocity = m.velocity_at(t);
-      body.spin = m.spin;
+      body.spin = m.spin_at(t);
       bodies.push_back(body);
     }
     return bodies;

@@ -193,6 +193,8 @@ ReplayProof prove_above(const ReplayQuery& query, const LongVec& n, Long t, Long
 std::vector<Refusal> replay(const ReplayQuery& query, const ReplayAnswer& answer,
                             const std::vector<CertificateRow>& rows) {
   std::vector<Refusal> wrong;
+  if (query.motion_a.free || query.motion_b.free)
+    return {{-1, "a body turns freely: only constant spin can be replayed"}};
   if (const std::string what = check_answer(query, answer, !rows.empty()); !what.empty()) return {{-1, what}};
   const int n = static_cast<int>(rows.size());
   const Long toc = Long(answer.toc) * Long(query.interval);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <queue>
+#include <stdexcept>
 
 #include "ch02_hull_hierarchy/features.hpp"
 #include "ch02_hull_hierarchy/inside.hpp"
@@ -134,6 +135,8 @@ Reach first_reach(const Model& a, const ca::Motion& motion_a, const Model& b, co
 ca::AdvanceResult advance(const Model& a, const ca::Motion& motion_a, const Model& b,
                           const ca::Motion& motion_b, const ca::AdvanceOptions& options) {
   ca::check_query(motion_a, motion_b, options);
+  if (motion_a.free || motion_b.free)
+    throw std::invalid_argument("advance: this chapter's steps need bodies whose spin is constant");
   ca::AdvanceResult result;
   const ca::PairPose start(motion_a, motion_b, 0), end(motion_a, motion_b, options.interval);
   const ca::Convex root_a = a.convex(a.tree.nodes[0]), root_b = b.convex(b.tree.nodes[0]);
