@@ -45,13 +45,14 @@ StepSpec read_step(const Section& step) {
   return spec;
 }
 
-// What a scene must have beside its required keys: bodies and their shapes, or (chapter 3) an LCP and none of
-// them.
+// What a scene must have beside its required keys: bodies and their shapes, or an LCP (chapter 3) or a linear
+// file (chapter 1) and none of them.
 void check_subject(const Section& scene, int chapter) {
-  if (scene.has("lcp")) {
-    for (const char* key : {"shapes", "bodies", "contacts"}) {
+  for (const char* instead : {"lcp", "linear"}) {
+    if (!scene.has(instead)) continue;
+    for (const char* key : {"shapes", "bodies", "contacts", "motions"}) {
       if (!scene.has(key)) continue;
-      refuse(scene.entry(key).key_place, fmt::format("'{}' beside 'lcp'; keep one of them", key));
+      refuse(scene.entry(key).key_place, fmt::format("'{}' beside '{}'; keep one of them", key, instead));
     }
     return;
   }
@@ -88,7 +89,8 @@ Scene read_checked(const Section& root, const SceneSource& source) {
   if (root.has("bodies")) scene.bodies = read_bodies(root, scene.shapes);
   scene.interval = root.get_or(number_value, "interval", scene.interval);
   if (root.has("motions")) scene.motions = resolved_file(root, "motions", source);
-  if (source.chapter <= 2) check_query_bodies(root, scene.bodies);
+  if (root.has("linear")) scene.linear = resolved_file(root, "linear", source);
+  if (source.chapter <= 2 && !scene.linear) check_query_bodies(root, scene.bodies);
   if (root.has("contacts")) scene.contacts = read_contacts(root, scene.bodies);
   if (root.has("lcp")) scene.lcp = read_lcp(root.section("lcp"), source);
   return scene;

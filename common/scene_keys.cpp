@@ -18,7 +18,7 @@ std::vector<SceneKey> build_table() {
   constexpr int on = all_later_chapters;
   const std::string required = "required", none = "none";
   const std::string one_kind = "required: exactly one kind";
-  const std::string bodies_needed = "required, except with lcp";
+  const std::string bodies_needed = "required, except with lcp or linear";
   return {
   // path, first, last, default, type, unit, range, meaning, example
   {"name", 1, on, "the file's name", text, "", {}, "Names the scene in summaries and in the output folder.", "two-bodies", {}},
@@ -71,6 +71,7 @@ std::vector<SceneKey> build_table() {
 
   {"interval", 1, 2, "1", number, "s", {0, 1e6, true}, "Time that a query covers.", "1", {}},
   {"motions", 1, 2, "the bodies' own", file, "", {}, "CSV of queries: poses and velocities of both bodies, one query per row.", "motions.csv", {}},
+  {"linear", 1, 1, none, file, "", {}, "CSV of queries: a vertex and a triangle, or two edges, whose corners fly straight; no bodies then.", "linear.csv", {}},
 
   {"contacts", 3, 3, bodies_needed, list, "", {}, "Contacts of the touching bodies.", "[{a: 0, b: 1, point: [0, 0, 0], normal: [0, 0, 1]}]", {}},
   {"contacts[].a", 3, 3, required, integer, "", {0, 1e6}, "Number of the first body.", "0", {}},
@@ -101,7 +102,6 @@ const std::vector<SceneKey>& scene_keys() {
 
 const std::vector<LaterName>& later_names() {
   static const std::vector<LaterName> names = {
-      {"linear", 1, true},
       {"solver.method: lemke", 3, true},
       {"solver.method: pgs", 3, true},
       {"solver.method: psor", 3, true},

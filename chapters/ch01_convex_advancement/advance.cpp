@@ -1,8 +1,8 @@
 #include "ch01_convex_advancement/advance.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+
+#include "ch01_convex_advancement/rounding.hpp"
 
 namespace fc::ca {
 namespace {
@@ -34,14 +34,6 @@ FeaturePair witness(const GjkResult& g, const Vec3& origin) {
 // How exact a distance has to be while the bodies are far apart, relative to it: a plane that is nearly the
 // best one allows nearly the best step, and costs less.
 constexpr double kFar = 0.02;
-
-// The sum of two times >= 0, rounded down.
-double sum_below(double t, double step) {
-  const double sum = t + step;
-  const double added = sum - t;
-  const double lost = (t - (sum - added)) + (step - added);  // sum + lost = t + step exactly (Knuth)
-  return lost < 0 ? std::nextafter(sum, t) : sum;
-}
 
 }  // namespace
 
@@ -92,9 +84,7 @@ AdvanceResult advance(const Convex& shape_a, const Motion& motion_a, const Conve
 
     cache = g.cache;
     // ANCHOR: advance
-    double remaining = options.interval - t;
-    if (sum_below(t, remaining) < options.interval)  // rounded: the last row must reach the end
-      remaining = std::nextafter(remaining, options.interval);
+    const double remaining = remaining_above(t, options.interval);
     double step = pair.safe_time(pose, g.normal, g.lower, target, t, options.interval);
     const bool clear = step >= remaining;
     step = std::min(step, remaining);

@@ -13,13 +13,17 @@ bool finite(const Motion& m) {
 
 }  // namespace
 
-void check_query(const Motion& a, const Motion& b, const AdvanceOptions& options) {
+void check_options(const AdvanceOptions& options) {
   if (!(options.interval >= 0) || !std::isfinite(options.interval))
     throw std::invalid_argument("advance: the interval is " + std::to_string(options.interval) +
                                 " s, it must be finite and at least 0");
   if (!(options.tolerance >= 0) || !std::isfinite(options.tolerance))
     throw std::invalid_argument("advance: the tolerance is " + std::to_string(options.tolerance) +
                                 " m, it must be finite and at least 0");
+}
+
+void check_query(const Motion& a, const Motion& b, const AdvanceOptions& options) {
+  check_options(options);
   if (!finite(a) || !finite(b)) throw std::invalid_argument("advance: a motion is not finite");
 }
 

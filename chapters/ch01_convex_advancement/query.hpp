@@ -54,8 +54,9 @@ struct AdvanceOptions {
   bool certificate = false;  // record every advance
 };
 
-// Throws std::invalid_argument for an interval or a tolerance that is negative or not finite, and for a
-// motion that is not finite.
+// Throws std::invalid_argument for an interval or a tolerance that is negative or not finite, and, the second
+// one, for a motion that is not finite.
+void check_options(const AdvanceOptions& options);
 void check_query(const Motion& a, const Motion& b, const AdvanceOptions& options);
 
 struct AdvanceResult {

@@ -1,4 +1,4 @@
-// Reading motions files.
+// Reading motions files and linear files.
 #include <cmath>
 
 #include "ch01_convex_advancement/query_run.hpp"
@@ -60,7 +60,43 @@ std::vector<QueryMotions> read_motions(const Scene& scene, const Shape& shape_a,
   return queries;
 }
 
+constexpr int kLinearCells = 1 + 4 * 2 * 3;
+
+std::string linear_header() {
+  std::string text = "kind";
+  for (int end = 0; end < 2; ++end)
+    for (int point = 0; point < 4; ++point)
+      for (const char* axis : {"x", "y", "z"})
+        text += ",p" + std::to_string(point) + "_" + axis + std::to_string(end);
+  return text;
+}
+
+LinearQuery::Kind linear_kind(const ReadTable& table, const ReadTable::Row& row) {
+  if (row.cells[0] == "vf") return LinearQuery::Kind::vertex_face;
+  if (row.cells[0] == "ee") return LinearQuery::Kind::edge_edge;
+  throw InputError(table.mark(row, 0), "\"" + row.cells[0] +
+                                           "\" is no kind of query; write vf (a vertex and a triangle) or "
+                                           "ee (two edges)");
+}
+
 }  // namespace
+
+std::vector<LinearQuery> linear_queries(const Scene& scene) {
+  const ReadTable table = read_table(*scene.linear, linear_header());
+  std::vector<LinearQuery> queries;
+  for (const ReadTable::Row& row : table.rows) {
+    LinearQuery query;
+    query.kind = linear_kind(table, row);
+    for (int cell = 1; cell < kLinearCells; ++cell) {
+      const int point = (cell - 1) / 3, axis = (cell - 1) % 3;
+      (point < 4 ? query.start[point] : query.end[point - 4])[axis] = number(table, row, cell);
+    }
+    queries.push_back(query);
+  }
+  if (queries.empty())
+    throw InputError({table.file}, "has no queries; write one row for each below the header");
+  return queries;
+}
 
 std::vector<QueryMotions> query_motions(const Scene& scene, const std::vector<Shape>& shapes) {
   const Shape& shape_a = shapes[scene.bodies[0].shape];

@@ -103,9 +103,8 @@ MotionRecording recorded(const Scene& scene, const std::vector<Shape>& shapes, c
 
 }  // namespace
 
-void run_queries(const Scene& scene, const std::vector<Shape>& shapes,
-                 const std::vector<QueryMotions>& queries, const Ask& ask, const RunContext& context,
-                 Summary& summary, const std::function<void(MotionRecording&)>& add_hulls) {
+void run_queries(const Scene& scene, std::size_t queries, const Ask& ask, const RunContext& context,
+                 Summary& summary, const std::function<void(const AdvanceResult&)>& finish) {
   AdvanceOptions options;
   options.interval = scene.interval;
   options.tolerance = scene.ccd.tolerance;
@@ -117,10 +116,10 @@ void run_queries(const Scene& scene, const std::vector<Shape>& shapes,
   std::map<Status, std::int64_t> count;
   std::vector<std::int64_t> times;
   std::int64_t iterations = 0, distance_calls = 0, node_pairs = 0, total_ns = 0, raised = 0;
-  Progress progress("queries", static_cast<std::int64_t>(queries.size()), context.quiet);
-  for (std::size_t q = 0; q < queries.size(); ++q) {
+  Progress progress("queries", static_cast<std::int64_t>(queries), context.quiet);
+  for (std::size_t q = 0; q < queries; ++q) {
     const auto start = std::chrono::steady_clock::now();
-    const AdvanceResult r = ask(queries[q].a, queries[q].b, options);
+    const AdvanceResult r = ask(q, options);
     const std::int64_t wall_ns = (std::chrono::steady_clock::now() - start) / std::chrono::nanoseconds(1);
     const double toc = r.status == Status::separated ? 1
                        : options.interval > 0        ? r.toc / options.interval
@@ -133,15 +132,13 @@ void run_queries(const Scene& scene, const std::vector<Shape>& shapes,
     node_pairs += r.node_pairs;
     total_ns += wall_ns;
     raised += r.tolerance > options.tolerance ? 1 : 0;
-    if (queries.size() == 1) {
+    if (queries == 1) {
       summary.add("status", std::string(name_of(r.status)));
       summary.add("time of contact", toc, "of the interval");
       summary.add("gap, certified lower bound", r.gap_lower, "m");
       summary.add("gap, witness points", r.gap_upper, "m");
       summary.add("features", static_cast<std::int64_t>(r.features.size()));
-      MotionRecording motion = recorded(scene, shapes, queries[q], r, options.interval, context.chapter);
-      if (add_hulls) add_hulls(motion);
-      summary.add_note("motion", motion.write(context.out_dir));
+      if (finish) finish(r);
     }
     progress.update(static_cast<std::int64_t>(q) + 1);
   }
@@ -150,7 +147,7 @@ void run_queries(const Scene& scene, const std::vector<Shape>& shapes,
   if (tables.certificate) tables.certificate->close();
 
   std::sort(times.begin(), times.end());
-  summary.add("queries", static_cast<std::int64_t>(queries.size()));
+  summary.add("queries", static_cast<std::int64_t>(queries));
   for (const Status s : {Status::contact, Status::separated, Status::touching_at_start,
                          Status::penetrating_at_start, Status::unresolved})
     summary.add(std::string("queries: ") + name_of(s), count[s]);
@@ -160,7 +157,21 @@ void run_queries(const Scene& scene, const std::vector<Shape>& shapes,
   summary.add("distance calls", distance_calls);
   summary.add("pairs of nodes", node_pairs);
   summary.add_time("median time of a query", times[times.size() / 2]);
-  summary.counter("continuous collision queries", static_cast<std::int64_t>(queries.size()), total_ns);
+  summary.counter("continuous collision queries", static_cast<std::int64_t>(queries), total_ns);
+}
+
+void run_queries(const Scene& scene, const std::vector<Shape>& shapes,
+                 const std::vector<QueryMotions>& queries, const AskMotions& ask, const RunContext& context,
+                 Summary& summary, const std::function<void(MotionRecording&)>& add_hulls) {
+  run_queries(
+      scene, queries.size(),
+      [&](std::size_t q, const AdvanceOptions& options) { return ask(queries[q].a, queries[q].b, options); },
+      context, summary,
+      [&](const AdvanceResult& result) {
+        MotionRecording motion = recorded(scene, shapes, queries[0], result, scene.interval, context.chapter);
+        if (add_hulls) add_hulls(motion);
+        summary.add_note("motion", motion.write(context.out_dir));
+      });
 }
 
 }  // namespace fc::ca

@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "ch01_convex_advancement/linear.hpp"
 #include "ch01_convex_advancement/query.hpp"
 #include "common/motion_recording.hpp"
 #include "common/program.hpp"
@@ -21,11 +22,21 @@ struct QueryMotions {
 // number of cells, a cell that is not a finite number, a zero quaternion, no rows.
 std::vector<QueryMotions> query_motions(const Scene& scene, const std::vector<Shape>& shapes);
 
+// The queries of the scene's `linear` file (contract 1.4). Throws InputError with the file's line.
+std::vector<LinearQuery> linear_queries(const Scene& scene);
+
 // Answers each query with `ask`, writes queries.csv, features.csv and, if asked for, certificate.csv, and
-// fills the summary. A single query's motion is written too; `add_hulls` (optional) adds to it what it likes.
-using Ask = std::function<AdvanceResult(const Motion& a, const Motion& b, const AdvanceOptions& options)>;
+// fills the summary. `finish` (optional) sees the answer of a single query.
+using Ask = std::function<AdvanceResult(std::size_t query, const AdvanceOptions& options)>;
+void run_queries(const Scene& scene, std::size_t queries, const Ask& ask, const RunContext& context,
+                 Summary& summary, const std::function<void(const AdvanceResult&)>& finish = {});
+
+// The same for two moving bodies, of which a single query's motion is written too; `add_hulls` (optional)
+// adds to it what it likes.
+using AskMotions =
+    std::function<AdvanceResult(const Motion& a, const Motion& b, const AdvanceOptions& options)>;
 void run_queries(const Scene& scene, const std::vector<Shape>& shapes,
-                 const std::vector<QueryMotions>& queries, const Ask& ask, const RunContext& context,
+                 const std::vector<QueryMotions>& queries, const AskMotions& ask, const RunContext& context,
                  Summary& summary, const std::function<void(MotionRecording&)>& add_hulls = {});
 
 }  // namespace fc::ca

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace fc::ca {
@@ -95,8 +96,11 @@ std::string text(Long value) {
   return fmt::format("{:.9g}", value);
 }
 
+// Shows what a row claims: prove_above() for some pair.
+using RowProver = std::function<ReplayProof(const LongVec& n, Long t, Long gap, Long speed, Long duration)>;
+
 // What is wrong with one row, or "".
-std::string check_row(const ReplayQuery& query, const CertificateRow& row, Long reached_before) {
+std::string check_row(const RowProver& prove, const CertificateRow& row, Long reached_before) {
   if (std::abs(row.normal.norm() - 1) > kUnit)
     return fmt::format("the normal's length is {:.17g}, not 1", row.normal.norm());
   if (!(row.t >= 0) || !(row.advance >= 0)) return "the time or the advance is negative";
@@ -110,8 +114,8 @@ std::string check_row(const ReplayQuery& query, const CertificateRow& row, Long 
   if (used > Long(row.gap_lower))
     return "the gap of " + text(row.gap_lower) + " m does not last for " + text(row.advance) + " s at " +
            text(row.speed_bound) + " m/s";
-  const ReplayProof proof = prove_above(query, row.normal.cast<Long>().normalized(), row.t, row.gap_lower,
-                                        row.speed_bound, row.advance);
+  const ReplayProof proof =
+      prove(row.normal.cast<Long>().normalized(), row.t, row.gap_lower, row.speed_bound, row.advance);
   if (proof.proved) return "";
   if (proof.reached == 0)
     return "the gap along the normal is " + text(proof.gap) + " m, less than gap_lower " +
@@ -125,7 +129,7 @@ std::string check_row(const ReplayQuery& query, const CertificateRow& row, Long 
 }
 
 // What is wrong with the answer itself, or "".
-std::string check_answer(const ReplayQuery& query, const ReplayAnswer& answer, bool has_rows) {
+std::string check_answer(double interval, const ReplayAnswer& answer, bool has_rows) {
   if (answer.gap_lower > answer.gap_upper) return "gap_lower is larger than gap_upper";
   switch (answer.status) {
     case Status::touching_at_start:
@@ -143,8 +147,51 @@ std::string check_answer(const ReplayQuery& query, const ReplayAnswer& answer, b
       break;
   }
   if (!(answer.toc >= 0 && answer.toc <= 1)) return "toc is not in [0, 1]";
-  if (!has_rows && answer.toc * query.interval > 0) return "the certificate has no row for it";
+  if (!has_rows && answer.toc * interval > 0) return "the certificate has no row for it";
   return "";
+}
+
+std::vector<Refusal> check_rows(const RowProver& prove, double interval, const ReplayAnswer& answer,
+                                const std::vector<CertificateRow>& rows) {
+  std::vector<Refusal> wrong;
+  if (const std::string what = check_answer(interval, answer, !rows.empty()); !what.empty())
+    return {{-1, what}};
+  const int n = static_cast<int>(rows.size());
+  const Long toc = Long(answer.toc) * Long(interval);
+  Long reached = 0;
+  for (int k = 0; k < n; ++k) {
+    const CertificateRow& row = rows[k];
+    if (const std::string what = check_row(prove, row, reached); !what.empty()) wrong.push_back({k, what});
+    reached = Long(row.t) + Long(row.advance);
+    // The next row, or toc, may begin a rounding later than this one ends: nothing may happen in between.
+    const Long next = k + 1 < n ? Long(rows[k + 1].t) : toc;
+    if (next > reached && next <= reached * (1 + Long(kChain)) &&
+        !prove(row.normal.cast<Long>().normalized(), reached, 0, 0, next - reached).proved)
+      wrong.push_back({k, "the pair may touch between the end of this row and the next"});
+  }
+  if (n == 0) return wrong;
+  if (toc > reached * (1 + Long(kChain)))
+    wrong.push_back({n - 1, fmt::format("it proves the pair clear until {:.17g} s only, but toc is {:.17g} s",
+                                        static_cast<double>(reached), static_cast<double>(toc))});
+  if (toc < reached * (1 - Long(kChain)))
+    wrong.push_back({n - 1, fmt::format("it proves the pair clear until {:.17g} s, beyond toc, {:.17g} s",
+                                        static_cast<double>(reached), static_cast<double>(toc))});
+  return wrong;
+}
+
+// B - A's corners along n at t, the least of them, less what rounding may have added.
+Long linear_gap(const LinearQuery& q, double interval, const LongVec& n, Long t) {
+  const int split = q.kind == LinearQuery::Kind::vertex_face ? 1 : 2;
+  Long least = std::numeric_limits<Long>::infinity();
+  for (int a = 0; a < split; ++a)
+    for (int b = split; b < 4; ++b) {
+      const LongVec start = q.start[b].cast<Long>() - q.start[a].cast<Long>(),
+                    end = q.end[b].cast<Long>() - q.end[a].cast<Long>();
+      const Long part = interval > 0 ? t / Long(interval) : 0;
+      least = std::min(least, n.dot((1 - part) * start + part * end) -
+                                  kRounding * (1 + part) * (start.norm() + end.norm()));
+    }
+  return least;
 }
 
 }  // namespace
@@ -192,31 +239,28 @@ ReplayProof prove_above(const ReplayQuery& query, const LongVec& n, Long t, Long
 
 std::vector<Refusal> replay(const ReplayQuery& query, const ReplayAnswer& answer,
                             const std::vector<CertificateRow>& rows) {
-  std::vector<Refusal> wrong;
   if (query.motion_a.free || query.motion_b.free)
     return {{-1, "a body turns freely: only constant spin can be replayed"}};
-  if (const std::string what = check_answer(query, answer, !rows.empty()); !what.empty()) return {{-1, what}};
-  const int n = static_cast<int>(rows.size());
-  const Long toc = Long(answer.toc) * Long(query.interval);
-  Long reached = 0;
-  for (int k = 0; k < n; ++k) {
-    const CertificateRow& row = rows[k];
-    if (const std::string what = check_row(query, row, reached); !what.empty()) wrong.push_back({k, what});
-    reached = Long(row.t) + Long(row.advance);
-    // The next row, or toc, may begin a rounding later than this one ends: nothing may happen in between.
-    const Long next = k + 1 < n ? Long(rows[k + 1].t) : toc;
-    if (next > reached && next <= reached * (1 + Long(kChain)) &&
-        !prove_above(query, row.normal.cast<Long>().normalized(), reached, 0, 0, next - reached).proved)
-      wrong.push_back({k, "the pair may touch between the end of this row and the next"});
-  }
-  if (n == 0) return wrong;
-  if (toc > reached * (1 + Long(kChain)))
-    wrong.push_back({n - 1, fmt::format("it proves the pair clear until {:.17g} s only, but toc is {:.17g} s",
-                                        static_cast<double>(reached), static_cast<double>(toc))});
-  if (toc < reached * (1 - Long(kChain)))
-    wrong.push_back({n - 1, fmt::format("it proves the pair clear until {:.17g} s, beyond toc, {:.17g} s",
-                                        static_cast<double>(reached), static_cast<double>(toc))});
-  return wrong;
+  const auto prove = [&](const LongVec& n, Long t, Long gap, Long speed, Long duration) {
+    return prove_above(query, n, t, gap, speed, duration);
+  };
+  return check_rows(prove, query.interval, answer, rows);
+}
+
+std::vector<Refusal> replay(const LinearQuery& query, double interval, const ReplayAnswer& answer,
+                            const std::vector<CertificateRow>& rows) {
+  const auto prove = [&](const LongVec& n, Long t, Long gap, Long speed, Long duration) {
+    ReplayProof proof;
+    for (const Long h : {Long(0), duration}) {
+      proof.reached = h;
+      proof.gap = linear_gap(query, interval, n, t + h);
+      ++proof.evaluations;
+      if (proof.gap < gap - speed * h + kRounding * (std::abs(gap) + std::abs(speed) * h)) return proof;
+    }
+    proof.proved = true;
+    return proof;
+  };
+  return check_rows(prove, interval, answer, rows);
 }
 
 }  // namespace fc::ca

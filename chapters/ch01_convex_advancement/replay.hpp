@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "ch01_convex_advancement/linear.hpp"
 #include "ch01_convex_advancement/query.hpp"
 #include "common/shape.hpp"
 
@@ -70,6 +71,10 @@ struct Refusal {
 // together prove the pair clear from 0 to toc. That it is within the tolerance at toc is not the
 // certificate's business: features.csv has two points of the surfaces for that.
 std::vector<Refusal> replay(const ReplayQuery& query, const ReplayAnswer& answer,
+                            const std::vector<CertificateRow>& rows);
+// The same for corners that fly straight: along a fixed n their gap is concave in time, so both ends of a row
+// tell.
+std::vector<Refusal> replay(const LinearQuery& query, double interval, const ReplayAnswer& answer,
                             const std::vector<CertificateRow>& rows);
 
 }  // namespace fc::ca

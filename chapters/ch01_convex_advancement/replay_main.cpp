@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <array>
 #include <cmath>
+#include <functional>
 
 #include "ch01_convex_advancement/query_run.hpp"
 #include "ch01_convex_advancement/replay.hpp"
@@ -115,20 +116,43 @@ RunFiles read_run(const std::filesystem::path& folder, std::size_t asked) {
   return run;
 }
 
+// The scene's queries, whatever they are about, and how to replay one.
+struct Questions {
+  std::size_t count;
+  std::function<std::vector<ca::Refusal>(std::size_t query, const ca::ReplayAnswer&,
+                                         const std::vector<ca::CertificateRow>&)>
+      replay;
+};
+
+Questions questions_of(const Scene& scene) {
+  const double interval = scene.interval;
+  if (scene.linear) {
+    auto queries = ca::linear_queries(scene);
+    const std::size_t count = queries.size();
+    return {count, [=, queries = std::move(queries)](std::size_t q, const auto& answer, const auto& rows) {
+              return ca::replay(queries[q], interval, answer, rows);
+            }};
+  }
+  const std::vector<Shape> shapes = build_shapes(scene, false);
+  auto queries = ca::query_motions(scene, shapes);
+  const std::size_t count = queries.size();
+  return {count, [=, a = ca::replay_shape(shapes[scene.bodies[0].shape]),
+                  b = ca::replay_shape(shapes[scene.bodies[1].shape]),
+                  queries = std::move(queries)](std::size_t q, const auto& answer, const auto& rows) {
+            return ca::replay({a, b, queries[q].a, queries[q].b, interval}, answer, rows);
+          }};
+}
+
 int check(const Arguments& arguments) {
   const Scene scene = read_scene(arguments.source);
-  const std::vector<Shape> shapes = build_shapes(scene, false);
-  const std::vector<ca::QueryMotions> queries = ca::query_motions(scene, shapes);
-  RunFiles run = read_run(arguments.run, queries.size());
-  const ca::ReplayShape a = ca::replay_shape(shapes[scene.bodies[0].shape]),
-                        b = ca::replay_shape(shapes[scene.bodies[1].shape]);
+  const Questions questions = questions_of(scene);
+  RunFiles run = read_run(arguments.run, questions.count);
   std::vector<std::string> lines;
   for (const auto& [line, what] : run.wrong)
     lines.push_back(fmt::format("{}:{}: {}", run.certificate.file, line, what));
-  Progress progress("queries", static_cast<std::int64_t>(queries.size()), arguments.quiet);
-  for (std::size_t q = 0; q < queries.size(); ++q) {
-    const ca::ReplayQuery query{a, b, queries[q].a, queries[q].b, scene.interval};
-    for (const ca::Refusal& refusal : ca::replay(query, run.answers[q], run.certificates[q].rows)) {
+  Progress progress("queries", static_cast<std::int64_t>(questions.count), arguments.quiet);
+  for (std::size_t q = 0; q < questions.count; ++q) {
+    for (const ca::Refusal& refusal : questions.replay(q, run.answers[q], run.certificates[q].rows)) {
       const bool of_answer = refusal.row < 0;
       lines.push_back(fmt::format(
           "{}:{}: query {}: {}", of_answer ? run.queries.file : run.certificate.file,
@@ -138,7 +162,7 @@ int check(const Arguments& arguments) {
   }
   for (const std::string& line : lines) fmt::print(stderr, "{}\n", one_line(line));
   if (!arguments.quiet)
-    fmt::print("{}: {} queries, {} certificate rows, {} refused\n", arguments.run.string(), queries.size(),
+    fmt::print("{}: {} queries, {} certificate rows, {} refused\n", arguments.run.string(), questions.count,
                run.certificate.rows.size(), lines.size());
   return lines.empty() ? proved : refused;
 }

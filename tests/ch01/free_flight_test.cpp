@@ -123,7 +123,7 @@ RC_GTEST_PROP(FreeFlight, CertificatesHoldForTheIntegratedMotion, ()) {
     RC_ASSERT(r.gap_upper <= r.tolerance);
     RC_ASSERT(r.features.size() == 1u);
     // The support gap along any plane is at most the distance: here the two meet.
-    const Long gap = truth.gap(r.features[0].normal, Long(r.toc));
+    const Long gap = truth.gap(r.features.at(0).normal, Long(r.toc));
     RC_ASSERT(std::abs(static_cast<double>(gap) - r.gap_upper) <= r.tolerance);
   }
   if (r.status == Status::separated) RC_ASSERT(reached >= Long(q.options.interval));
