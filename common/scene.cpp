@@ -80,6 +80,7 @@ Scene read_checked(const Section& root, const SceneSource& source) {
     const Section ccd = root.section("ccd");
     scene.ccd.tolerance = ccd.get_or(number_value, "tolerance", scene.ccd.tolerance);
     scene.ccd.bound = ccd.get_or(text_value, "bound", scene.ccd.bound);
+    scene.ccd.warm_start = ccd.get_or(boolean_value, "warm_start", scene.ccd.warm_start);
     scene.ccd.max_iterations = ccd.get_or(integer_value, "max_iterations", scene.ccd.max_iterations);
   }
   if (root.has("solver"))

@@ -75,6 +75,7 @@ struct CcdSpec {
   double tolerance = 1e-6;             // m
   std::string bound = "second_order";  // the motion bound (chapter 1)
   int max_iterations = 1'000'000;      // per query; then `unresolved`
+  bool warm_start = true;              // of GJK within a query (chapter 1)
 };
 
 struct SolverSpec {

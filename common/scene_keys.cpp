@@ -31,6 +31,7 @@ std::vector<SceneKey> build_table() {
   {"ccd.tolerance", 1, on, "1e-6", number, "m", {0, 1e3, true}, "Gap at which two bodies are in contact.", "1.0e-6", {}},
   {"ccd.bound", 1, 1, "second_order", choice, "", {}, "Motion bound, from the plainest to the sharpest; chapter 2 has its own.", "second_order", {"naive", "directional", "projected", "second_order"}},
   {"ccd.max_iterations", 1, on, "1000000", integer, "1", {1, 1e9}, "Advances (chapter 1) or pairs of nodes (later) per query before it ends as unresolved.", "10000", {}},
+  {"ccd.warm_start", 1, 1, "true", boolean, "", {}, "GJK begins with the simplex of the pose before; false shows what that saves.", "false", {}},
   {"solver", 3, on, none, section, "", {}, "The solver of the contact equations.", "{method: dantzig}", {}},
   {"solver.method", 3, on, "dantzig", choice, "", {}, "Algorithm that solves the LCP.", "dantzig", {"dantzig"}},
 

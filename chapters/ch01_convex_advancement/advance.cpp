@@ -52,8 +52,9 @@ AdvanceResult advance(const Convex& shape_a, const Motion& motion_a, const Conve
     const double target =
         0.5 * result.tolerance;  // never aim at contact itself: at distance 0 there is no plane
     const GjkOptions accuracy{0.125 * result.tolerance, kFar, 128};
-    GjkResult g = distance(shape_a, shape_b, pose, accuracy, &cache);
+    GjkResult g = distance(shape_a, shape_b, pose, accuracy, options.warm_start ? &cache : nullptr);
     ++result.distance_calls;
+    result.gjk_iterations += g.iterations;
     // No plane yet that tells touching from overlapping: GJK found none, or stopped at a poor one.
     const bool doubtful = g.status == GjkResult::Status::overlapping ||
                           (g.upper <= result.tolerance && g.lower < -result.tolerance);

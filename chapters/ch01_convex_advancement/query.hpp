@@ -52,6 +52,7 @@ struct AdvanceOptions {
   MotionBound bound = MotionBound::second_order;
   int max_iterations = 1'000'000;
   bool certificate = false;  // record every advance
+  bool warm_start = true;    // GJK begins with the simplex of the pose before (chapter 1)
 };
 
 // Throws std::invalid_argument for an interval or a tolerance that is negative or not finite, and, the second
@@ -67,6 +68,7 @@ struct AdvanceResult {
   double tolerance = 0;         // m, the one that was used: raised to the rounding term where it was below it
   std::int64_t iterations = 0;  // advances
   std::int64_t distance_calls = 0;
+  std::int64_t gjk_iterations = 0;    // of all distance calls (chapter 1)
   std::int64_t node_pairs = 0;        // 1 for two convex bodies
   std::vector<FeaturePair> features;  // at toc, if status is contact or touching_at_start
   std::vector<CertificateRow> certificate;

@@ -111,11 +111,13 @@ void run_queries(const Scene& scene, std::size_t queries, const Ask& ask, const 
   options.bound = motion_bound_named(scene.ccd.bound);
   options.max_iterations = scene.ccd.max_iterations;
   options.certificate = context.certificate;
+  options.warm_start = scene.ccd.warm_start;
 
   Tables tables(context);
   std::map<Status, std::int64_t> count;
   std::vector<std::int64_t> times;
-  std::int64_t iterations = 0, distance_calls = 0, node_pairs = 0, total_ns = 0, raised = 0;
+  std::int64_t iterations = 0, distance_calls = 0, gjk_iterations = 0, node_pairs = 0, total_ns = 0,
+               raised = 0;
   Progress progress("queries", static_cast<std::int64_t>(queries), context.quiet);
   for (std::size_t q = 0; q < queries; ++q) {
     const auto start = std::chrono::steady_clock::now();
@@ -129,6 +131,7 @@ void run_queries(const Scene& scene, std::size_t queries, const Ask& ask, const 
     times.push_back(wall_ns);
     iterations += r.iterations;
     distance_calls += r.distance_calls;
+    gjk_iterations += r.gjk_iterations;
     node_pairs += r.node_pairs;
     total_ns += wall_ns;
     raised += r.tolerance > options.tolerance ? 1 : 0;
@@ -155,6 +158,7 @@ void run_queries(const Scene& scene, std::size_t queries, const Ask& ask, const 
   summary.add("queries whose tolerance was raised to the rounding term", raised);
   summary.add("advances", iterations);
   summary.add("distance calls", distance_calls);
+  if (gjk_iterations > 0) summary.add("GJK iterations", gjk_iterations);
   summary.add("pairs of nodes", node_pairs);
   summary.add_time("median time of a query", times[times.size() / 2]);
   summary.counter("continuous collision queries", static_cast<std::int64_t>(queries), total_ns);

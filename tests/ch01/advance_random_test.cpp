@@ -150,6 +150,24 @@ RC_GTEST_PROP(AdvanceRandom, MotionBoundsHold, ()) {
   }
 }
 
+// Where GJK begins changes what it costs, not what is found.
+TEST(AdvanceRandom, WarmAndColdAgree) {
+  Random random(7);
+  std::int64_t warm_iterations = 0, cold_iterations = 0;
+  for (int round = 0; round < 300; ++round) {
+    Query q = random_query(random);
+    const ca::AdvanceResult warm = q.ask();
+    q.options.warm_start = false;
+    const ca::AdvanceResult cold = q.ask();
+    if (warm.status != cold.status) EXPECT_LE(std::min(warm.gap_upper, cold.gap_upper), warm.tolerance);
+    EXPECT_EQ(replay(q, cold, cold.certificate), "");
+    warm_iterations += warm.gjk_iterations;
+    cold_iterations += cold.gjk_iterations;
+    EXPECT_GE(warm.gjk_iterations, warm.iterations + 1);
+  }
+  EXPECT_LT(1.5 * static_cast<double>(warm_iterations), static_cast<double>(cold_iterations));
+}
+
 RC_GTEST_PROP(AdvanceRandom, TheSameQueryGivesTheSameBytes, ()) {
   Random random = random_engine();
   const Query q = random_query(random);
