@@ -37,14 +37,15 @@ constexpr double kFar = 0.02;
 
 }  // namespace
 
-AdvanceResult advance(const Convex& shape_a, const Motion& motion_a, const Convex& shape_b,
-                      const Motion& motion_b, const AdvanceOptions& options) {
+void advance(const Convex& shape_a, const Motion& motion_a, const Convex& shape_b, const Motion& motion_b,
+             const AdvanceOptions& options, AdvanceResult& result) {
   check_query(motion_a, motion_b, options);
-  AdvanceResult result;
+  result.clear();
   result.node_pairs = 1;
   const MovingPair pair(options.bound, shape_a, motion_a, shape_b, motion_b);
   double t = 0;
   SimplexCache cache;
+  Vec3 last_normal = Vec3::UnitX();
   while (true) {
     const PairPose pose(motion_a, motion_b, t);
     // Below a few rounding terms upper and lower bound cannot meet: a smaller tolerance is raised to that.
@@ -55,6 +56,11 @@ AdvanceResult advance(const Convex& shape_a, const Motion& motion_a, const Conve
     GjkResult g = distance(shape_a, shape_b, pose, accuracy, options.warm_start ? &cache : nullptr);
     ++result.distance_calls;
     result.gjk_iterations += g.iterations;
+    // So close, GJK's planes may be poor. Along that of the last advance most of the target must be left.
+    if (t > 0 && g.lower < target) {
+      const double left = support_gap(shape_a, shape_b, pose, last_normal);
+      if (left > g.lower) g.lower = left, g.normal = last_normal;
+    }
     // No plane yet that tells touching from overlapping: GJK found none, or stopped at a poor one.
     const bool doubtful = g.status == GjkResult::Status::overlapping ||
                           (g.upper <= result.tolerance && g.lower < -result.tolerance);
@@ -75,15 +81,16 @@ AdvanceResult advance(const Convex& shape_a, const Motion& motion_a, const Conve
             g.lower < -result.tolerance ? Status::penetrating_at_start : Status::touching_at_start;
       if (result.status != Status::penetrating_at_start)
         result.features.push_back(witness(g, motion_a.position_at(t)));
-      return result;
+      return;
     }
     if (t >= options.interval) {
       result.status = Status::separated;
-      return result;
+      return;
     }
-    if (result.iterations >= options.max_iterations || g.lower <= target) return result;  // unresolved
+    if (result.iterations >= options.max_iterations || g.lower <= target) return;  // unresolved
 
     cache = g.cache;
+    last_normal = g.normal;
     // ANCHOR: advance
     const double remaining = remaining_above(t, options.interval);
     double step = pair.safe_time(pose, g.normal, g.lower, target, t, options.interval);
@@ -93,11 +100,18 @@ AdvanceResult advance(const Convex& shape_a, const Motion& motion_a, const Conve
       result.certificate.push_back(
           {t, g.normal, g.lower, (g.lower - (1 - kStepSlack) * target) / step, step});
     const double next = clear ? options.interval : sum_below(t, step);
-    if (!(next > t)) return result;  // unresolved: the step is below the rounding of t
+    if (!(next > t)) return;  // unresolved: the step is below the rounding of t
     ++result.iterations;
     t = next;
     // ANCHOR_END: advance
   }
+}
+
+AdvanceResult advance(const Convex& shape_a, const Motion& motion_a, const Convex& shape_b,
+                      const Motion& motion_b, const AdvanceOptions& options) {
+  AdvanceResult result;
+  advance(shape_a, motion_a, shape_b, motion_b, options, result);
+  return result;
 }
 
 }  // namespace fc::ca

@@ -19,4 +19,9 @@ namespace fc::ca {
 AdvanceResult advance(const Convex& shape_a, const Motion& motion_a, const Convex& shape_b,
                       const Motion& motion_b, const AdvanceOptions& options);
 
+// The same into a result that was used before: whatever its vectors once held is not allocated again, so that
+// a loop of queries allocates nothing.
+void advance(const Convex& shape_a, const Motion& motion_a, const Convex& shape_b, const Motion& motion_b,
+             const AdvanceOptions& options, AdvanceResult& result);
+
 }  // namespace fc::ca

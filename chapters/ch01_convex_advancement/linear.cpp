@@ -80,10 +80,10 @@ void check(const LinearQuery& q, const AdvanceOptions& options) {
 
 }  // namespace
 
-AdvanceResult advance(const LinearQuery& query, const AdvanceOptions& options) {
+void advance(const LinearQuery& query, const AdvanceOptions& options, AdvanceResult& result) {
   check(query, options);
   const Differences d(query, options.interval);
-  AdvanceResult result;
+  result.clear();
   result.node_pairs = 1;
   result.tolerance = std::max(options.tolerance, 8 * d.rounding);
   const double target = 0.5 * result.tolerance;
@@ -104,13 +104,13 @@ AdvanceResult advance(const LinearQuery& query, const AdvanceOptions& options) {
       result.status = t > 0 ? Status::contact : Status::touching_at_start;
       result.features.push_back(
           witness(query, d, s, normal, options.interval > 0 ? t / options.interval : 0));
-      return result;
+      return;
     }
     if (t >= options.interval) {
       result.status = Status::separated;
-      return result;
+      return;
     }
-    if (result.iterations >= options.max_iterations || lower <= target) return result;  // unresolved
+    if (result.iterations >= options.max_iterations || lower <= target) return;  // unresolved
     const double remaining = remaining_above(t, options.interval);
     double step = safe_time(d, now, normal, target);
     const bool clear = step >= remaining;
@@ -118,10 +118,16 @@ AdvanceResult advance(const LinearQuery& query, const AdvanceOptions& options) {
     if (options.certificate)
       result.certificate.push_back({t, normal, lower, (lower - (1 - kStepSlack) * target) / step, step});
     const double next = clear ? options.interval : sum_below(t, step);
-    if (!(next > t)) return result;  // unresolved: the step is below the rounding of t
+    if (!(next > t)) return;  // unresolved: the step is below the rounding of t
     ++result.iterations;
     t = next;
   }
+}
+
+AdvanceResult advance(const LinearQuery& query, const AdvanceOptions& options) {
+  AdvanceResult result;
+  advance(query, options, result);
+  return result;
 }
 
 }  // namespace fc::ca

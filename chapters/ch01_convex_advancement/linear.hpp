@@ -23,5 +23,6 @@ struct LinearQuery {
 //
 // Throws std::invalid_argument for a negative or non-finite interval, tolerance or coordinate.
 AdvanceResult advance(const LinearQuery& query, const AdvanceOptions& options);
+void advance(const LinearQuery& query, const AdvanceOptions& options, AdvanceResult& result);
 
 }  // namespace fc::ca

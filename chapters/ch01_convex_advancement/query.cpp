@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace fc::ca {
 namespace {
@@ -25,6 +26,15 @@ void check_options(const AdvanceOptions& options) {
 void check_query(const Motion& a, const Motion& b, const AdvanceOptions& options) {
   check_options(options);
   if (!finite(a) || !finite(b)) throw std::invalid_argument("advance: a motion is not finite");
+}
+
+void AdvanceResult::clear() {
+  AdvanceResult fresh;
+  fresh.features.swap(features);
+  fresh.certificate.swap(certificate);
+  fresh.features.clear();
+  fresh.certificate.clear();
+  *this = std::move(fresh);
 }
 
 const char* name_of(Status status) {

@@ -72,6 +72,8 @@ struct AdvanceResult {
   std::int64_t node_pairs = 0;        // 1 for two convex bodies
   std::vector<FeaturePair> features;  // at toc, if status is contact or touching_at_start
   std::vector<CertificateRow> certificate;
+
+  void clear();  // for the next query; keeps the storage
 };
 
 }  // namespace fc::ca
