@@ -1,0 +1,31 @@
+#include "ex04_one_body.hpp"
+
+namespace fc::exercises {
+
+// Farthest along d is farthest of the points along d, seen in the body's axes; and of its ball, the point at
+// d.
+Vec3 support(const Rounded& body, const Vec3& direction) {
+  const Vec3 local = body.rotation.transpose() * direction;
+  Vec3 best = body.points.front();
+  for (const Vec3& p : body.points)
+    if (local.dot(p) > local.dot(best)) best = p;
+  return body.position + body.rotation * best + body.radius * direction.normalized();
+}
+
+// d.(b - a) is largest where d.b is largest and d.a smallest.
+Vec3 difference_support(const Rounded& a, const Rounded& b, const Vec3& direction) {
+  return support(b, direction) - support(a, -direction);
+}
+
+// What is swept is the Minkowski sum with the segment from 0 to `travel`, and supports of sums add.
+Vec3 swept_support(const Rounded& a, const Rounded& b, const Vec3& travel, const Vec3& direction) {
+  const Vec3 along = direction.dot(travel) > 0 ? travel : Vec3(Vec3::Zero());
+  return difference_support(a, b, direction) + along;
+}
+
+// The least n.(b - a) is that of the point farthest against n.
+double gap_on_the_way(const Rounded& a, const Rounded& b, const Vec3& travel, const Vec3& n) {
+  return n.dot(swept_support(a, b, travel, -n));
+}
+
+}  // namespace fc::exercises

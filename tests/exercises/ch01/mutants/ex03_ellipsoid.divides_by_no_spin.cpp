@@ -1,0 +1,27 @@
+// Caught by: Ex03Ellipsoid.NothingMovesAlongTheSpinOrWithoutOne
+// Without a spin there is no axis to divide for.
+#include <algorithm>
+#include <cmath>
+
+#include "ex03_ellipsoid.hpp"
+
+namespace fc::exercises {
+
+Vec3 ellipsoid_support(const Vec3& half_axes, const Vec3& direction) {
+  const Vec3 stretched = half_axes.cwiseProduct(direction.normalized());
+  return half_axes.cwiseProduct(stretched.normalized());
+}
+
+double ellipsoid_reach(const Vec3& half_axes, const Vec3& axis) {
+  const Vec3 d2 = half_axes.cwiseAbs2(), a2 = axis.cwiseAbs2();
+  const double sum = d2.x() * (a2.y() + a2.z()) + d2.y() * (a2.z() + a2.x()) + d2.z() * (a2.x() + a2.y());
+  const double product = d2.y() * d2.z() * a2.x() + d2.z() * d2.x() * a2.y() + d2.x() * d2.y() * a2.z();
+  return std::sqrt(0.5 * (sum + std::sqrt(std::max(0.0, sum * sum - 4 * product))));
+}
+
+double ellipsoid_speed_bound(const Vec3& half_axes, const Vec3& n, const Vec3& spin) {
+  const double rate = spin.norm();
+  return n.cross(spin).norm() * ellipsoid_reach(half_axes, spin / rate);
+}
+
+}  // namespace fc::exercises
