@@ -104,7 +104,7 @@ TEST(Ex05Crank, KeepsItsDigitsWhereTheRoomIsTiny) {
 
 TEST(Ex05Crank, DoublesTheDigits) {
   const Crank q{1, 0.5, -1, 1};  // it meets the ceiling at 30 degrees, at cos(30 degrees) m/s
-  EXPECT_LE(advances(q, 1e-12), 8) << "advances to 1e-12 m: the linear step needs some 190";
+  EXPECT_LE(advances(q, 1e-12), 8) << "advances to 1e-12 m: the linear step needs 14";
   EXPECT_LE(advances(q, 1e-12), advances(q, 1e-3) + 3) << "nine more digits are two or three more advances";
 }
 
