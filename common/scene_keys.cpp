@@ -71,8 +71,8 @@ std::vector<SceneKey> build_table() {
   {"bodies[].grid.spacing", 1, on, required, vector3, "m", any, "Distance of neighbours along x, y and z.", "[1.1, 1.1, 1.1]", {}},
 
   {"interval", 1, 2, "1", number, "s", {0, 1e6, true}, "Time that a query covers.", "1", {}},
-  {"motions", 1, 2, "the bodies' own", file, "", {}, "CSV of queries: poses and velocities of both bodies, one query per row.", "motions.csv", {}},
-  {"linear", 1, 1, none, file, "", {}, "CSV of queries: a vertex and a triangle, or two edges, whose corners fly straight; no bodies then.", "linear.csv", {}},
+  {"motions", 1, 2, "the bodies' own", file, "", {}, "CSV of queries, one per row: a_px,a_py,a_pz,a_qw,a_qx,a_qy,a_qz,a_vx,a_vy,a_vz,a_wx,a_wy,a_wz (position, orientation, velocity and spin, as in bodies), then the same with b_.", "motions.csv", {}},
+  {"linear", 1, 1, none, file, "", {}, "CSV of queries: a vertex and a triangle, or two edges, whose corners fly straight; no bodies then. Columns: kind (vf or ee), p0_x0,p0_y0,p0_z0 to p3_z0 at the start, p0_x1 to p3_z1 at the end.", "linear.csv", {}},
 
   {"contacts", 3, 3, bodies_needed, list, "", {}, "Contacts of the touching bodies.", "[{a: 0, b: 1, point: [0, 0, 0], normal: [0, 0, 1]}]", {}},
   {"contacts[].a", 3, 3, required, integer, "", {0, 1e6}, "Number of the first body.", "0", {}},
