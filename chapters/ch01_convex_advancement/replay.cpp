@@ -92,8 +92,8 @@ class Outlook {
   LongVec n_a_, n_b_, turn_a_, turn_b_;
 };
 
-std::string text(Long value) {
-  return fmt::format("{:.9g}", value);
+std::string text(Long value, int digits = 9) {
+  return fmt::format("{:.{}g}", value, digits);
 }
 
 // Shows what a row claims: prove_above() for some pair.
@@ -118,14 +118,19 @@ std::string check_row(const RowProver& prove, const CertificateRow& row, Long re
       prove(row.normal.cast<Long>().normalized(), row.t, row.gap_lower, row.speed_bound, row.advance);
   if (proof.proved) return "";
   if (proof.reached == 0)
-    return "the gap along the normal is " + text(proof.gap) + " m, less than gap_lower " +
-           text(row.gap_lower) + " m";
+    return "the gap along the normal is " + text(proof.gap) + " m, by " +
+           text(Long(row.gap_lower) - proof.gap, 3) + " m less than gap_lower";
   if (proof.evaluations > kMostEvaluations)
     return "it could not be shown that the pair closes no faster than the speed bound from " +
            text(proof.reached) + " s later on";
-  return "the pair closes faster than the speed bound: " + text(proof.reached) +
-         " s later the gap along the normal is " + text(proof.gap) + " m, and the row leaves " +
-         text(Long(row.gap_lower) - Long(row.speed_bound) * proof.reached) + " m";
+  // Bodies: the row was true until then. Corners that fly straight: it is no longer.
+  const Long left = Long(row.gap_lower) - Long(row.speed_bound) * proof.reached;
+  const std::string later =
+      "the pair closes faster than the speed bound: " + text(proof.reached) + " s later ";
+  if (text(proof.gap) == text(left))
+    return later + "the gap along the normal, " + text(proof.gap) + " m, falls below what the row leaves";
+  return later + "the gap along the normal is " + text(proof.gap) + " m, and the row leaves " + text(left) +
+         " m";
 }
 
 // What is wrong with the answer itself, or "".

@@ -75,8 +75,11 @@ ca::Status status_of(const ReadTable& table, const ReadTable::Row& row) {
   for (const ca::Status s : {ca::Status::contact, ca::Status::separated, ca::Status::touching_at_start,
                              ca::Status::penetrating_at_start, ca::Status::unresolved})
     if (row.cells[1] == ca::name_of(s)) return s;
-  throw InputError(table.mark(row, 1),
-                   "\"" + row.cells[1] + "\" is no status; the tables are listed in the text");
+  throw InputError(
+      table.mark(row, 1),
+      "\"" + row.cells[1] +
+          "\" is no status; write contact, separated, touching_at_start, penetrating_at_start or "
+          "unresolved");
 }
 
 RunFiles read_run(const std::filesystem::path& folder, std::size_t asked) {
@@ -84,6 +87,9 @@ RunFiles read_run(const std::filesystem::path& folder, std::size_t asked) {
   run.queries = read_table(folder / "queries.csv",
                            "query,status,toc [1],gap_lower [m],gap_upper [m],iterations,distance_calls,"
                            "node_pairs,features,wall_ns");
+  if (!std::filesystem::exists(folder / "certificate.csv"))
+    throw InputError(SourceMark{(folder / "certificate.csv").string()},
+                     "cannot be read: no such file; run the chapter with --certificate");
   run.certificate = read_table(folder / "certificate.csv",
                                "query,k,t [s],nx,ny,nz,gap_lower [m],speed_bound [m/s],advance [s]");
   for (const ReadTable::Row& row : run.queries.rows) {
@@ -98,7 +104,7 @@ RunFiles read_run(const std::filesystem::path& folder, std::size_t asked) {
                      std::to_string(run.answers.size()) + " answers, but the scene asks " +
                          std::to_string(asked) + " queries; is it another run?");
   run.certificates.resize(run.answers.size());
-  double last = 0;
+  double last = 0, next = 0;  // the query, and its row, that should come
   for (const ReadTable::Row& row : run.certificate.rows) {
     std::array<double, 9> x{};
     for (int c = 0; c < 9; ++c) x[c] = run.certificate.number(row, c);
@@ -106,10 +112,12 @@ RunFiles read_run(const std::filesystem::path& folder, std::size_t asked) {
     if (!(query >= 0 && query < static_cast<double>(asked) && query == std::floor(query)))
       throw InputError(run.certificate.mark(row, 0), "there is no query " + row.cells[0]);
     Certificate& certificate = run.certificates[static_cast<std::size_t>(query)];
-    if (query < last || x[1] != static_cast<double>(certificate.rows.size()))
+    if (query > last) next = 0;
+    if (query < last || x[1] != next)
       run.wrong.emplace_back(row.line, "row " + row.cells[1] + " of query " + row.cells[0] +
                                            " is out of order, or one before it is missing");
     last = query;
+    next = x[1] + 1;  // so that what is missing is said once
     certificate.rows.push_back({x[2], {x[3], x[4], x[5]}, x[6], x[7], x[8]});
     certificate.lines.push_back(row.line);
   }
