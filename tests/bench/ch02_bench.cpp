@@ -251,10 +251,11 @@ void add_cases() {
     return fcl_distance(*c.bunny->fcl, c.ends[i].from_a, c.ends[i].from_b);
   });
 
+  // The motions of bunny_far for coarser bunnies.
   for (const int triangles : {1000, 4000, 10000}) {
     const auto coarse = lazily([=] { return Bunny(coarser(shape(), static_cast<std::size_t>(triangles))); });
     const auto queries =
-        lazily([=] { return make_case(coarse(), pairs(coarse(), 100, &BunnyPairs::far, 4)); });
+        lazily([=] { return make_case(coarse(), pairs(coarse(), 200, &BunnyPairs::far, 1)); });
     const std::string name = "bunny_" + std::to_string(triangles);
     add_ours(name, queries);
     add_fcl(name, "fcl_rss_1e-6", queries);

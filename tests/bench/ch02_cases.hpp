@@ -2,8 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <queue>
 #include <random>
@@ -183,7 +185,7 @@ class BunnyPairs {
   BunnyPair far() {
     while (true) {
       const Vec3 apart = size * uniform(1.1, 2.5) * direction();
-      const Vec3 aim = size * uniform(0, 1) * direction();  // where B would come to, seen from A
+      const Vec3 aim = size * uniform(0, 2.9) * direction();  // where B would come to, seen from A
       const Vec3 relative = uniform(0.9, 1.5) * (aim - apart), velocity_b = uniform(0.2, 0.8) * relative;
       BunnyPair pair{body(Vec3::Zero()), body(apart)};
       pair.a.velocity = velocity_b - relative;

@@ -5,6 +5,7 @@
 #include <fcl/narrowphase/detail/traversal/distance/mesh_conservative_advancement_traversal_node.h>
 #include <fcl/narrowphase/detail/traversal/traversal_recurse.h>
 
+#include <algorithm>
 #include <limits>
 #include <vector>
 
