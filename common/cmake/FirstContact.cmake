@@ -21,6 +21,9 @@ endif()
 if(FC_BENCH AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   target_compile_options(fc_settings INTERFACE -Wno-maybe-uninitialized)  # GCC bug 105593: false alarms in AVX-512 headers
 endif()
+if(FC_BENCH)  # with -march=native Eigen would align its types more than the peers' libraries do, which share them
+  target_compile_definitions(fc_settings INTERFACE EIGEN_MAX_STATIC_ALIGN_BYTES=16)
+endif()
 if(FC_SANITIZE)
   target_compile_options(fc_settings INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all
                                                -fno-omit-frame-pointer)

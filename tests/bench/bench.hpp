@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -13,9 +15,17 @@ namespace fc::bench {
 
 // What a method did with a case's queries.
 struct Verdict {
-  int misses = 0;  // no hit where there is one
-  int late = 0;    // a time after the true first contact
-  int failed = 0;  // no answer, or a wrong distance
+  int misses = 0;                           // no hit where there is one
+  int late = 0;                             // a time after the true first contact
+  int failed = 0;                           // no answer, or a wrong one
+  std::map<std::string, double> more = {};  // further counters of the row
+};
+
+// How often each query is timed.
+struct Effort {
+  int repetitions = 5;     // of the whole set of queries, after a first one that warms up
+  int least_in_a_row = 4;  // of one query, in each repetition
+  int most_in_a_row = 64;
 };
 
 inline double median_of(std::vector<double> values) {
@@ -24,15 +34,15 @@ inline double median_of(std::vector<double> values) {
   return *middle;
 }
 
-// Times `query(i)` for i = 0 ... count - 1. Each query is run so often in a row that neither the clock's own
-// cost nor a cold cache shows, and all of them `repetitions` times; a query's time is the median of its
-// repetitions.
+// Times `query(i)` for i = 0 ... count - 1. Each query is run so often in a row (within the effort's limits)
+// that neither the clock's own cost nor a cold cache shows, and all of them `repetitions` times; a query's
+// time is the median of its repetitions.
 template <class Query>
-std::vector<double> times_ns(int count, int repetitions, const Query& query) {
+std::vector<double> times_ns(int count, const Effort& effort, const Query& query) {
   using Clock = std::chrono::steady_clock;
   std::vector<int> in_a_row(static_cast<std::size_t>(count), 1);
   std::vector<std::vector<double>> times(static_cast<std::size_t>(count));
-  for (int repetition = -1; repetition < repetitions; ++repetition)  // the first one warms up and calibrates
+  for (int repetition = -1; repetition < effort.repetitions; ++repetition)  // the first one calibrates
     for (int i = 0; i < count; ++i) {
       const int times_in_a_row = in_a_row[i];
       const auto start = Clock::now();
@@ -40,7 +50,8 @@ std::vector<double> times_ns(int count, int repetitions, const Query& query) {
       const double ns =
           std::chrono::duration<double, std::nano>(Clock::now() - start).count() / times_in_a_row;
       if (repetition < 0)
-        in_a_row[i] = std::clamp(static_cast<int>(8000 / std::max(ns, 1.0)), 4, 64);
+        in_a_row[i] = std::clamp(static_cast<int>(8000 / std::max(ns, 1.0)), effort.least_in_a_row,
+                                 effort.most_in_a_row);
       else
         times[i].push_back(ns);
     }
@@ -49,25 +60,50 @@ std::vector<double> times_ns(int count, int repetitions, const Query& query) {
   return medians;
 }
 
-// Registers the row `case/who`: its queries' times and its verdict. `query(i)` answers query i and returns
-// something that the compiler must not drop; `judge()` compares every answer with the truth, once.
+// A row of a case, ready to be run: `query(i)` answers query i and returns something that the compiler must
+// not drop; `judge()` compares every answer with the truth, once.
 template <class Query, class Judge>
-void add_row(const std::string& name, int count, const Query& query, const Judge& judge) {
+struct Row {
+  int count = 0;
+  Query query;
+  Judge judge;
+};
+template <class Query, class Judge>
+Row(int, Query, Judge) -> Row<Query, Judge>;
+
+// Registers the row `case/who`: its queries' times and its verdict. `make()` returns the Row; it is called
+// when the row is run, so that rows that a filter leaves out cost nothing.
+template <class Make>
+void add_row_when_run(const std::string& name, const Effort& effort, const Make& make) {
+  struct Result {
+    std::vector<double> times;  // ascending
+    Verdict verdict;
+  };
+  const auto result = std::make_shared<Result>();  // kept: Google Benchmark runs a function several times
   benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
+    const auto row = make();
+    if (result->times.empty()) {
+      result->times = times_ns(row.count, effort, [&](int i) { benchmark::DoNotOptimize(row.query(i)); });
+      std::sort(result->times.begin(), result->times.end());
+      result->verdict = row.judge();
+    }
     int next = 0;
     for (auto _ : state) {  // Google Benchmark's own column: the mean over the queries, one after the other
-      benchmark::DoNotOptimize(query(next));
-      next = next + 1 < count ? next + 1 : 0;
+      benchmark::DoNotOptimize(row.query(next));
+      next = next + 1 < row.count ? next + 1 : 0;
     }
-    std::vector<double> times = times_ns(count, 5, [&](int i) { benchmark::DoNotOptimize(query(i)); });
-    const Verdict verdict = judge();
-    std::sort(times.begin(), times.end());
-    state.counters["median_ns"] = times[times.size() / 2];
-    state.counters["p95_ns"] = times[times.size() * 95 / 100];
-    state.counters["misses"] = verdict.misses;
-    state.counters["late"] = verdict.late;
-    state.counters["failed"] = verdict.failed;
+    state.counters["median_ns"] = result->times[result->times.size() / 2];
+    state.counters["p95_ns"] = result->times[result->times.size() * 95 / 100];
+    state.counters["misses"] = result->verdict.misses;
+    state.counters["late"] = result->verdict.late;
+    state.counters["failed"] = result->verdict.failed;
+    for (const auto& [counter, value] : result->verdict.more) state.counters[counter] = value;
   });
+}
+
+template <class Query, class Judge>
+void add_row(const std::string& name, int count, const Query& query, const Judge& judge) {
+  add_row_when_run(name, {}, [=] { return Row{count, query, judge}; });
 }
 
 }  // namespace fc::bench
