@@ -210,7 +210,7 @@ TEST(AnyMesh, InsideIsForSolidsOnly) {
       const BrutePair truth{{p.mesh, here, p.report.solid}, {bead, there}};
       const AdvanceResult r =
           hulls::advance(model_of(p.mesh, p.report.solid), here, model_of(bead), there, {});
-      const bool overlap = truth.distance(0) == 0, within = truth.inside(0);
+      const bool overlap = truth.distance(0) == 0, within = truth.inside(0, 0);
       EXPECT_EQ(r.status == Status::penetrating_at_start, overlap || within) << place.transpose();
       inside += within && !overlap;
     }

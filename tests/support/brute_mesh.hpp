@@ -118,15 +118,20 @@ class BrutePair {
     return best - a_.radius - b_.radius;
   }
 
-  // Whether, at a time, a vertex of one lies inside the other, which is a solid (rounding radii aside).
-  bool inside(Long t) const {
+  // Whether, at a time, a vertex of one lies inside the other, which is a solid, and deeper than `depth` (m)
+  // below its surface (rounding radii aside).
+  bool inside(Long t, Long depth) const {
     const LongPose pa = long_pose(a_.motion, t, a_.motion.position),
                    pb = long_pose(b_.motion, t, a_.motion.position);
-    const auto within = [](const BruteBody& in, const LongPose& p, const BruteBody& out, const LongPose& q) {
+    const auto within = [&](const BruteBody& in, const LongPose& p, const BruteBody& out, const LongPose& q) {
       if (!out.solid) return false;
       for (const Vec3& v : in.mesh.vertices) {
-        const Vec<Long> x = q.rotation.transpose() * (p * v - q.position);
-        if (x.norm() <= out.reach && windings(out.mesh, x.cast<double>()) > 0.6) return true;
+        const Vec<Long> y = p * v, x = q.rotation.transpose() * (y - q.position);
+        if (x.norm() > out.reach || windings(out.mesh, x.cast<double>()) < 0.4) continue;
+        Long below = std::numeric_limits<Long>::infinity();
+        for (int k = 0; k < static_cast<int>(out.mesh.triangles.size()); ++k)
+          below = std::min(below, triangles_apart({y, y, y}, out.triangle(k, q)).distance);
+        if (below > depth) return true;
       }
       return false;
     };
