@@ -210,6 +210,28 @@ TEST(MeshHardCase, SpinningFromANearTouchingStart) {
         angle / rate, 0.9999 * rate);
 }
 
+// To part now is no proof for later: what turns comes round, what was thrown up falls.
+TEST(MeshHardCase, WhatLeavesComesBack) {
+  const Body arm(prism({{0, -0.05}, {1, 0}, {0, 0.05}}, {0.2, 0}, 0.2)),
+      wall(tiled_box({1, 1, 1}, {3, 3, 3}));
+  const double start = 0.5, meets = std::acos(0.95);
+  for (const double rate : {2 * pi, 50.0}) {
+    const AdvanceResult r =
+        ask(arm, at(kStill, kStill, {0, 0, rate}, turn(start, Vec3::UnitZ())), wall, at({1.45, 0, 0}));
+    expect_contact(r, (2 * pi - meets - start) / rate, std::sin(meets) * rate);
+  }
+  EXPECT_EQ(ask(arm, at(kStill, kStill, {0, 0, 2 * pi - meets - start - 1e-4}, turn(start, Vec3::UnitZ())),
+                wall, at({1.45, 0, 0}))
+                .status,
+            Status::separated);
+  // Up 0.5 m and down again, onto the slab that it left; a slope beside it that rises.
+  const Body slab(tiled_box({4, 4, 0.2}, {7, 7, 1})), stone(star(5, 0.2));
+  const double g = 10, up = 3, gap = 0.05, falls = (up + std::sqrt(up * up + 2 * g * gap)) / g;
+  const ca::Motion thrown = motion({0.1, 0.2, 0.2 + gap}, kLevel, {0.5, 0, up}, {0, 0, 3}, {0, 0, -g});
+  expect_contact(ask(slab, at(kStill), stone, thrown), falls, g * falls - up);
+  EXPECT_EQ(ask(slab, at(kStill), stone, thrown, {.interval = 0.999 * falls}).status, Status::separated);
+}
+
 // --- Inside ---
 
 TEST(MeshHardCase, ContainmentWithoutSurfaceContact) {
