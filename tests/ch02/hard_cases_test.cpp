@@ -247,12 +247,15 @@ TEST(MeshHardCase, WhatLeavesComesBack) {
                 wall, at({1.45, 0, 0}))
                 .status,
             Status::separated);
-  // Up 0.5 m and down again, onto the slab that it left; a slope beside it that rises.
+  // Up and down again, onto the slab that it left; and in a cavity, where no two hulls are ever apart.
   const Body slab(tiled_box({4, 4, 0.2}, {7, 7, 1})), stone(star(5, 0.2));
   const double g = 10, up = 3, gap = 0.05, falls = (up + std::sqrt(up * up + 2 * g * gap)) / g;
   const ca::Motion thrown = motion({0.1, 0.2, 0.2 + gap}, kLevel, {0.5, 0, up}, {0, 0, 3}, {0, 0, -g});
   expect_contact(ask(slab, at(kStill), stone, thrown), falls, g * falls - up);
   EXPECT_EQ(ask(slab, at(kStill), stone, thrown, {.interval = 0.999 * falls}).status, Status::separated);
+  expect_contact(ask(cube_with_cavity(), at(kStill), spike(0.05, 0.08, 5),
+                     motion({0.1, 0, -0.6 + gap}, kLevel, {0.1, 0.2, up}, {0, 0, 3}, {0, 0, -g})),
+                 falls, g * falls - up);
 }
 
 // --- Inside ---
