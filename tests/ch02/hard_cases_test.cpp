@@ -410,6 +410,10 @@ TEST(MeshHardCase, SpikeAndWedge) {
   const ca::Motion roof = at(kStill, kStill, kStill, turn(pi, Vec3::UnitX()));
   // Tip on edge; and beside it, on the flank.
   expect_contact(ask(up, roof, down, at({0.3, 0, 1}, {0, 0, -4})), 0.25, 4);
+  const AdvanceResult on_edge = ask(down, at({0.3, 0, 1}, {0, 0, -4}), up, roof);
+  expect_contact(on_edge, 0.25, 4);
+  EXPECT_EQ(on_edge.features.at(0).kind_a, FeatureKind::vertex);
+  EXPECT_EQ(on_edge.features.at(0).kind_b, FeatureKind::edge);
   expect_contact(ask(up, roof, down, at({0.3, 0.15, 1}, {0, 0, -4})), 1.5 / 4, 4 * 0.287);
   // Two spikes tip to tip, and side by side.
   const ca::Motion upside = at(kStill, kStill, kStill, turn(pi, Vec3::UnitX()));
