@@ -45,6 +45,56 @@ class Sets {
   std::vector<int> parent_;
 };
 
+// Triangles that are joined over edges of two, each with a side: whether it faces as the one that names its
+// set, or against it. The smaller set joins the larger one, so that no way to the name is long.
+class Sides {
+ public:
+  explicit Sides(std::size_t count) : up_(count), against_(count, 0), size_(count, 1), torn_(count, false) {
+    std::iota(up_.begin(), up_.end(), 0);
+  }
+  void join(int i, int j, bool opposed) {
+    auto [name, side_i] = find(i);
+    auto [other, side_j] = find(j);
+    const int side = side_i ^ side_j ^ static_cast<int>(opposed);
+    if (name == other) {
+      torn_[name] = torn_[name] || side != 0;
+      return;
+    }
+    if (size_[name] < size_[other]) std::swap(name, other);
+    up_[other] = name;
+    against_[other] = side;
+    size_[name] += size_[other];
+    torn_[name] = torn_[name] || torn_[other];
+  }
+  // How many triangles face against most of their set, and how many sets cannot face one way at all.
+  std::pair<int, int> flipped_and_one_sided() const {
+    std::vector<int> opposed(up_.size(), 0);
+    for (int i = 0; i < static_cast<int>(up_.size()); ++i) {
+      const auto [name, side] = find(i);
+      opposed[name] += side;
+    }
+    int flipped = 0, one_sided = 0;
+    for (int i = 0; i < static_cast<int>(up_.size()); ++i) {
+      if (up_[i] != i) continue;
+      if (torn_[i])
+        ++one_sided;
+      else
+        flipped += std::min(opposed[i], size_[i] - opposed[i]);
+    }
+    return {flipped, one_sided};
+  }
+
+ private:
+  std::pair<int, int> find(int i) const {  // the name of its set, and 1 if it faces against that one
+    int side = 0;
+    for (; up_[i] != i; i = up_[i]) side ^= against_[i];
+    return {i, side};
+  }
+
+  std::vector<int> up_, against_, size_;  // size_ and torn_: of the one that names a set
+  std::vector<bool> torn_;
+};
+
 // The triangles with each corner replaced by the first vertex at the same position.
 std::vector<Triangle> merge_equal_positions(const TriangleMesh& mesh) {
   std::unordered_map<Vec3, int, PositionHash> first_at;
@@ -93,6 +143,7 @@ bool without_area(const TriangleMesh& mesh, const Triangle& t) {
 // What the edges say about a set of triangles.
 struct Topology {
   int boundary_edges = 0, holes = 0, nonmanifold_edges = 0, flipped_edges = 0;
+  int flipped_triangles = 0, one_sided = 0;
   bool closed = true;  // each edge is used as often in one direction as in the other
   int components = 0;
   std::vector<int> component;  // of each triangle
@@ -123,6 +174,7 @@ Topology examine(const std::vector<Triangle>& triangles, std::size_t vertex_coun
   Topology result;
   const std::vector<EdgeUse> edges = sorted_edges(triangles);
   Sets components(triangles.size()), rims(vertex_count);
+  Sides sides(triangles.size());
   std::vector<int> on_boundary;  // one vertex of each boundary edge
   for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
     const EdgeUse& edge = edges[begin];
@@ -135,6 +187,7 @@ Topology examine(const std::vector<Triangle>& triangles, std::size_t vertex_coun
     result.closed = result.closed && 2 * forward == uses;
     result.nonmanifold_edges += uses > 2;
     result.flipped_edges += uses == 2 && forward != 1;
+    if (uses == 2) sides.join(edge.triangle, edges[end - 1].triangle, forward != 1);
     if (uses == 1) {
       ++result.boundary_edges;
       rims.join(edge.low, edge.high);
@@ -144,6 +197,8 @@ Topology examine(const std::vector<Triangle>& triangles, std::size_t vertex_coun
   for (int& v : on_boundary) v = rims.find(v);
   std::sort(on_boundary.begin(), on_boundary.end());
   result.holes = static_cast<int>(std::unique(on_boundary.begin(), on_boundary.end()) - on_boundary.begin());
+
+  std::tie(result.flipped_triangles, result.one_sided) = sides.flipped_and_one_sided();
 
   std::vector<int> number(triangles.size(), -1);  // of the component that a triangle names
   for (std::size_t t = 0; t < triangles.size(); ++t) {
@@ -245,6 +300,8 @@ PreparedMesh prepare_mesh(const TriangleMesh& mesh) {
   report.holes = topology.holes;
   report.nonmanifold_edges = topology.nonmanifold_edges;
   report.flipped_edges = topology.flipped_edges;
+  report.flipped_triangles = topology.flipped_triangles;
+  report.one_sided = topology.one_sided;
   report.components = topology.components;
   report.solid = topology.closed && !out.triangles.empty() && orient_solid(out, topology, report);
 

@@ -27,10 +27,12 @@ struct MeshReport {
   int holes = 0;                 // closed loops (connected sets) of boundary edges
   int nonmanifold_edges = 0;     // edges of three or more triangles
   int flipped_edges = 0;         // edges whose two triangles disagree in orientation
-  int components = 0;            // sets of triangles connected over shared edges
-  bool inside_out = false;       // a component faced inwards without being a cavity, and was reversed
-  int reversed_components = 0;   // how many
-  bool solid = false;            // closed and consistently oriented, with a volume: it has an inside
+  int flipped_triangles = 0;     // that face against most of those they are joined to over edges of two
+  int one_sided = 0;            // such sets that cannot face one way, like a Moebius band: none counted above
+  int components = 0;           // sets of triangles connected over shared edges
+  bool inside_out = false;      // a component faced inwards without being a cavity, and was reversed
+  int reversed_components = 0;  // how many
+  bool solid = false;           // closed and consistently oriented, with a volume: it has an inside
 
   // One line for people: "69,666 triangles, 34,835 vertices, closed, consistently oriented, 1 component", or
   // the defects.

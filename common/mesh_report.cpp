@@ -35,6 +35,8 @@ std::string MeshReport::text() const {
   add(count(components, "component", "components"));
   add_defect(holes, "hole", "holes");
   add_defect(boundary_edges, "boundary edge", "boundary edges");
+  add_defect(flipped_triangles, "flipped triangle", "flipped triangles");
+  add_defect(one_sided, "one-sided part", "one-sided parts");
   add_defect(flipped_edges, "edge between triangles of opposite orientation",
              "edges between triangles of opposite orientation");
   add_defect(nonmanifold_edges, "edge of three or more triangles", "edges of three or more triangles");
