@@ -73,6 +73,19 @@ std::string check_features(const Query& q, const AdvanceResult& r) {
   return "";
 }
 
+// Whether, at the start, one of some vertices of a body lies deeper inside the other one than the tolerance.
+bool deep_vertex(const truth::MeshBody& inner, const truth::MeshBody& outer, double tolerance) {
+  if (!outer.shape->solid) return false;
+  const std::size_t step = std::max<std::size_t>(1, inner.shape->vertices.size() / 50);
+  for (std::size_t i = 0; i < inner.shape->vertices.size(); i += step) {
+    const truth::MeshShape point({inner.shape->vertices[i].cast<double>()}, {{0, 0, 0}}, 0, false);
+    const truth::MeshBody vertex{&point, inner.flight};
+    if (truth::gap(vertex, outer, 0).lower > 1.01L * tolerance && truth::one_inside_other(vertex, outer, 0))
+      return true;
+  }
+  return false;
+}
+
 struct Checker {
   const Query& q;
   Verdict& verdict;
@@ -124,6 +137,11 @@ struct Checker {
       expect(g.lower <= r.tolerance, "touching_at_start, but the surfaces are apart");
       expect(!(inside && g.lower > r.tolerance), "touching_at_start, but one is inside the other");
       expect(r.gap_upper >= g.lower - 1e-3 * r.tolerance, "gap_upper below the true gap at the start");
+      expect(truth::depth(q.body_a(), q.body_b(), 0) <= 1.01L * r.tolerance,
+             "touching_at_start, but two triangles overlap by more than the tolerance");
+      expect(!deep_vertex(q.body_a(), q.body_b(), r.tolerance) &&
+                 !deep_vertex(q.body_b(), q.body_a(), r.tolerance),
+             "touching_at_start, but a vertex is deeper inside than the tolerance");
     } else {
       expect(g.upper > 0, "the bodies overlap at the start");
       expect(!inside, "one is inside the other at the start");
@@ -181,6 +199,7 @@ Verdict check(const Query& q) {
   const double answered = seconds();
   Verdict verdict;
   verdict.status = r.status;
+  verdict.limited = r.status == Status::unresolved && q.limited;
   Checker checker{q, verdict};
   checker.start(r);
   if (!says_no_more_than_the_start(r)) {

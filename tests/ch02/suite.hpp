@@ -67,6 +67,7 @@ struct Query {
   truth::Flight flight_a, flight_b;
   fc::ca::AdvanceOptions options;
   Story story = Story::translating;
+  bool limited = false;  // to fewer iterations than it may need
 
   truth::MeshBody body_a() const { return {&a->shape, flight_a}; }
   truth::MeshBody body_b() const { return {&b->shape, flight_b}; }
@@ -99,6 +100,7 @@ std::shared_ptr<const Prepared> bunny();
 struct Verdict {
   fc::ca::Status status = fc::ca::Status::unresolved;
   std::string wrong;              // what does not hold; empty: all does
+  bool limited = false;           // unresolved, of a query that allows few iterations
   bool undecided = false;         // the reference could not tell
   std::int64_t looks = 0;         // of the reference
   double asked = 0, checked = 0;  // s, of wall clock: the library's first answer, all the rest

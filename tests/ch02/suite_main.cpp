@@ -17,13 +17,14 @@ using fc::ca::Status;
 
 struct Totals {
   std::map<Status, std::uint64_t> of;
-  std::uint64_t queries = 0, undecided = 0, wrong = 0;
+  std::uint64_t queries = 0, limited = 0, undecided = 0, wrong = 0;
   std::int64_t looks = 0;
   double asked = 0, checked = 0, slowest = 0;  // s
 
   void add(const Totals& other) {
     for (const auto& [status, n] : other.of) of[status] += n;
     queries += other.queries;
+    limited += other.limited;
     undecided += other.undecided;
     wrong += other.wrong;
     looks += other.looks;
@@ -34,6 +35,7 @@ struct Totals {
   void add(const suite::Verdict& v) {
     add({{{v.status, 1}},
          1,
+         v.limited ? 1u : 0u,
          v.undecided ? 1u : 0u,
          v.wrong.empty() ? 0u : 1u,
          v.looks,
@@ -44,15 +46,15 @@ struct Totals {
   std::string row(const std::string& name) {
     const double n = static_cast<double>(std::max<std::uint64_t>(1, queries));
     return fmt::format(
-        "{:12}{:>9}{:>9}{:>10}{:>9}{:>12}{:>11}{:>10}{:>7}{:>12.0f}{:>10.2f}{:>10.2f}{:>10.2f}\n", name,
+        "{:12}{:>9}{:>9}{:>10}{:>9}{:>12}{:>11}{:>9}{:>10}{:>7}{:>12.0f}{:>10.2f}{:>10.2f}{:>10.2f}\n", name,
         queries, of[Status::contact], of[Status::separated], of[Status::touching_at_start],
-        of[Status::penetrating_at_start], of[Status::unresolved], undecided, wrong,
+        of[Status::penetrating_at_start], of[Status::unresolved] - limited, limited, undecided, wrong,
         static_cast<double>(looks) / n, 1e3 * asked / n, 1e3 * checked / n, slowest);
   }
   static std::string header() {
-    return fmt::format("{:12}{:>9}{:>9}{:>10}{:>9}{:>12}{:>11}{:>10}{:>7}{:>12}{:>10}{:>10}{:>10}\n", "story",
-                       "queries", "contact", "separated", "touching", "penetrating", "unresolved",
-                       "undecided", "wrong", "looks/query", "asked/ms", "check/ms", "longest/s");
+    return fmt::format("{:12}{:>9}{:>9}{:>10}{:>9}{:>12}{:>11}{:>9}{:>10}{:>7}{:>12}{:>10}{:>10}{:>10}\n",
+                       "story", "queries", "contact", "separated", "touching", "penetrating", "unresolved",
+                       "limited", "undecided", "wrong", "looks/query", "asked/ms", "check/ms", "longest/s");
   }
 };
 

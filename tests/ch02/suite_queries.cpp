@@ -468,7 +468,8 @@ Query Queries::at(std::uint64_t number) {
   stretch(q, integer(random, 0, 1) ? 1 : magnitude(random, 1e-3, 1e3));
   if (q.story == Story::parked && integer(random, 0, 9) == 0) q.options.interval = 0;
   q.options.tolerance = extent(first_->shape) * magnitude(random, 1e-9, 1e-4);
-  q.options.max_iterations = integer(random, 0, 19) ? 3'000'000 : integer(random, 1, 100);
+  q.limited = integer(random, 0, 19) == 0;
+  q.options.max_iterations = q.limited ? integer(random, 1, 100) : 3'000'000;
   return q;
 }
 

@@ -92,6 +92,23 @@ struct Nearest {
   }
 };
 
+// The depth of two triangles' overlap: least over the sides of their difference, whose normals are those of
+// the triangles and of pairs of edges. Negative: apart.
+Real triangle_depth(const Triangle& a, const Triangle& b) {
+  const auto edge = [](const Triangle& t, int k) { return V(t[(k + 1) % 3] - t[k]); };
+  const Nearest nearest{a, b};
+  Real least = kInfinity;
+  const auto side = [&](const V& d) {
+    if (const Real size = d.norm(); size > 0)
+      least = std::min({least, -nearest.support_gap(d / size), -nearest.support_gap(-d / size)});
+  };
+  side(edge(a, 0).cross(edge(a, 1)));
+  side(edge(b, 0).cross(edge(b, 1)));
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) side(edge(a, i).cross(edge(b, k)));
+  return least;
+}
+
 // --------------------------------------------------------------------------------------- two bodies
 
 Matrix axes_at(const Flight& flight, Real t) {
@@ -198,6 +215,18 @@ void nearest_pair(const Scene& scene, int i, int k, Gap& least) {
   if (next[1].lower < next[0].lower) std::swap(next[0], next[1]);
   for (const Next& n : next)
     if (n.lower <= least.upper) nearest_pair(scene, n.i, n.k, least);
+}
+
+void deepest_pair(const Scene& scene, int i, int k, Real& depth) {
+  const Ball &p = scene.pair.a.balls[i], &q = scene.pair.b.balls[k];
+  if (scene.balls(p, q) > 0) return;
+  if (!p.one() || !q.one()) {
+    open(scene.pair.a, scene.pair.b, i, k, [&](int m, int n) { deepest_pair(scene, m, n, depth); });
+    return;
+  }
+  const Triangle a = scene.triangle_a(p.triangle), b = scene.triangle_b(q.triangle);
+  const Real own = triangle_depth(a, b);
+  if (own < kInfinity) depth = std::max(depth, own - scene.noise);  // infinity: a point or a segment
 }
 
 // --------------------------------------------------------------------------------------- an interval
@@ -425,6 +454,13 @@ Gap gap(const MeshBody& a, const MeshBody& b, Real t, Search search) {
       }
   }
   return least;
+}
+
+Real depth(const MeshBody& a, const MeshBody& b, Real t) {
+  const Pair pair(a, b);
+  Real deepest = 0;
+  deepest_pair(Scene(pair, t), 0, 0, deepest);
+  return deepest;
 }
 
 Clear clear_between(const MeshBody& a, const MeshBody& b, Real from, Real to, Real level,

@@ -60,6 +60,10 @@ enum class Search { balls, every_pair };
 // The distance of the two surfaces at time t (s), less the rounding radii. Inside or outside does not count.
 Gap gap(const MeshBody& a, const MeshBody& b, Real t, Search search = Search::balls);
 
+// How far one of them would have to be moved at least to end the overlap of the two triangles that overlap
+// most, m; 0: none overlap. Overlaps of solids can be deeper than this, not less deep.
+Real depth(const MeshBody& a, const MeshBody& b, Real t);
+
 // Whether the distance is larger than `level` (m) during all of [from, to] (s).
 struct Clear {
   enum class Verdict {
