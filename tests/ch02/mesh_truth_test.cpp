@@ -178,10 +178,10 @@ TEST(MeshTruth, IntervalsAgainstDenseSampling) {
                    8 * unit_vector(random))};
     body_b.flight.acceleration = 2 * unit_vector(random);
     Real least = truth::kInfinity, first = 2;
-    for (int k = 0; k <= 120; ++k) {
-      const Real g = truth::gap(body_a, body_b, Real(k) / 120).upper;
+    for (int k = 0; k <= 40; ++k) {
+      const Real g = truth::gap(body_a, body_b, Real(k) / 40).upper;
       least = std::min(least, g);
-      if (g <= 0) first = std::min(first, Real(k) / 120);
+      if (g <= 0) first = std::min(first, Real(k) / 40);
     }
     const Clear c = truth::clear_between(body_a, body_b, 0, 1, 0);
     ASSERT_NE(c.verdict, Clear::Verdict::undecided);

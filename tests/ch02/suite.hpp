@@ -41,7 +41,8 @@ enum class Story {
   translating,  // no spin
   slow,         // up to a radian during the query
   fast,         // 1 to 10 turns
-  falling,      // accelerated, spinning
+  falling,      // accelerated, spinning; or thrown away from each other, and pulled back
+  turning,      // side by side, into each other or not by their spins alone
   grazing,      // along some plane the gap stays what it is: from -1e-3 to 1e-3 of the size
   sliding,      // from a tiny gap somewhere, along it, turning a little
   near_miss,    // past each other, half-way a small gap apart, spinning
@@ -49,9 +50,9 @@ enum class Story {
   start,        // touching, overlapping, one inside the other, or nearly so, at t = 0
   parked        // no motion at all, nor relative to each other, or no time
 };
-inline constexpr std::array kStories = {Story::translating, Story::slow,    Story::fast,      Story::falling,
-                                        Story::grazing,     Story::sliding, Story::near_miss, Story::far,
-                                        Story::start,       Story::parked};
+inline constexpr std::array kStories = {Story::translating, Story::slow,    Story::fast,    Story::falling,
+                                        Story::turning,     Story::grazing, Story::sliding, Story::near_miss,
+                                        Story::far,         Story::start,   Story::parked};
 const char* name_of(Story story);
 
 // A body for the reference and for the library.

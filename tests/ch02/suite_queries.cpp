@@ -317,10 +317,24 @@ struct Teller {
     q.flight_b.position -= when * way;
   }
 
+  // Where A has most room of some places inside of it, B's centre of mass.
+  void put_inside() const {
+    const truth::MeshShape point({Vec3::Zero()}, {{0, 0, 0}}, 0, false);
+    truth::MeshBody place{&point, q.flight_a};
+    truth::Real most = 0;
+    for (int i = 0; i < 30; ++i) {
+      place.flight.position = q.flight_a.position + size * uniform(random, 0, 1) * unit_vector(random);
+      const truth::Gap room = truth::gap(q.body_a(), place, 0);
+      if (room.lower <= most || !truth::one_inside_other(q.body_a(), place, 0)) continue;
+      most = room.lower;
+      q.flight_b.position = place.flight.position;
+    }
+  }
+
   void start() const {
     q.flight_b.velocity = q.flight_a.velocity + reach * uniform(random, 0, 2) * unit_vector(random);
     q.flight_b.position = q.flight_a.position;
-    switch (integer(random, 0, 5)) {
+    switch (integer(random, 0, 6)) {
       case 0:
         graze(size * (integer(random, 0, 2) ? -1 : 1) * magnitude(random, 1e-10, 0.3), 0);
         break;
@@ -335,6 +349,9 @@ struct Teller {
         q.flight_b.position -= n * size * (integer(random, 0, 1) ? 0 : magnitude(random, 1e-9, 1e-2));
         break;
       }
+      case 4:
+        put_inside();
+        break;
       default:  // anywhere: inside, in a cavity, in a hole, across
         q.flight_b.position += 0.8 * size * uniform(random, 0, 1) * unit_vector(random);
         break;
@@ -360,7 +377,18 @@ void tell(const Teller& m) {
       m.spins(0.1, 6);
       q.flight_a.acceleration = m.reach * uniform(random, 0, 3) * unit_vector(random);
       q.flight_b.acceleration = m.reach * uniform(random, 0, 3) * unit_vector(random);
+      if (integer(random, 0, 1)) {
+        const Vec3 n = m.bring_near(m.size * magnitude(random, 1e-4, 0.3));
+        m.slide(n, 0.3 * m.reach * uniform(random, 0, 1), -m.reach * uniform(random, 0, 1), 0);
+        q.flight_b.acceleration = q.flight_a.acceleration - m.reach * uniform(random, 0, 4) * n;
+      }
       break;
+    case Story::turning: {
+      const Vec3 n = m.bring_near(m.size * magnitude(random, 1e-3, 0.3));
+      m.spins(0.1, 6);
+      m.slide(n, 0.1 * m.size * uniform(random, 0, 1), m.size * uniform(random, -0.3, 0.1), 0);
+      break;
+    }
     case Story::grazing:
       m.graze(m.size * (integer(random, 0, 1) ? 1 : -1) * magnitude(random, 1e-8, 1e-3),
               uniform(random, 0, 1));
@@ -428,7 +456,7 @@ const char* name_of(Kind kind) {
 }
 
 const char* name_of(Story story) {
-  static constexpr std::array names = {"translating", "slow",      "fast", "falling", "grazing",
+  static constexpr std::array names = {"translating", "slow",      "fast", "falling", "turning", "grazing",
                                        "sliding",     "near_miss", "far",  "start",   "parked"};
   return names[static_cast<int>(story)];
 }
@@ -455,7 +483,7 @@ Query Queries::at(std::uint64_t number) {
     const Kind kind = kKinds[pair / kMeshKinds.size() % kKinds.size()];
     second_ = std::make_shared<Prepared>(
         random_shape(random, kind,
-                     scale * (integer(random, 0, 3) ? uniform(random, 0.3, 1) : magnitude(random, 0.02, 1))));
+                     scale * (integer(random, 0, 2) ? uniform(random, 0.3, 1) : magnitude(random, 0.02, 1))));
     pair_ = pair;
   }
   Random random = random_of(seed_, number, 2);
