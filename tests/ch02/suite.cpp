@@ -78,8 +78,10 @@ std::string check_features(const Query& q, const AdvanceResult& r) {
     if (++looked_at > 8) continue;  // hundreds in a flat contact
     const truth::Gap on_a = surface_gap(q.body_a(), point, f.point_a, r.toc),
                      on_b = surface_gap(q.body_b(), point, f.point_b, r.toc);
-    if (on_a.lower > slack || on_a.upper < -slack) return "a feature's point off A's surface";
-    if (on_b.lower > slack || on_b.upper < -slack) return "a feature's point off B's surface";
+    // Beyond a face's border by this much still counts as over the face.
+    const Real border = slack + 2e-9L * (q.a->shape.reach + q.b->shape.reach);
+    if (on_a.lower > border || on_a.upper < -border) return "a feature's point off A's surface";
+    if (on_b.lower > border || on_b.upper < -border) return "a feature's point off B's surface";
   }
   return "";
 }

@@ -317,24 +317,27 @@ struct Teller {
     q.flight_b.position -= when * way;
   }
 
-  // Where A has most room of some places inside of it, B's centre of mass.
+  // The smaller one's centre of mass where the larger one has most room of some places inside of it.
   void put_inside() const {
+    const bool a_is_larger = q.a->shape.reach > q.b->shape.reach;
+    const truth::MeshBody larger = a_is_larger ? q.body_a() : q.body_b();
     const truth::MeshShape point({Vec3::Zero()}, {{0, 0, 0}}, 0, false);
-    truth::MeshBody place{&point, q.flight_a};
+    truth::MeshBody place{&point, larger.flight};
     truth::Real most = 0;
-    for (int i = 0; i < 30; ++i) {
-      place.flight.position = q.flight_a.position + size * uniform(random, 0, 1) * unit_vector(random);
-      const truth::Gap room = truth::gap(q.body_a(), place, 0);
-      if (room.lower <= most || !truth::one_inside_other(q.body_a(), place, 0)) continue;
+    for (int i = 0; i < 50; ++i) {
+      const Vec3 shift = extent(*larger.shape) * uniform(random, 0, 1) * unit_vector(random);
+      place.flight.position = larger.flight.position + shift;
+      const truth::Gap room = truth::gap(larger, place, 0);
+      if (room.lower <= most || !truth::one_inside_other(larger, place, 0)) continue;
       most = room.lower;
-      q.flight_b.position = place.flight.position;
+      q.flight_b.position = q.flight_a.position + (a_is_larger ? shift : Vec3(-shift));
     }
   }
 
   void start() const {
     q.flight_b.velocity = q.flight_a.velocity + reach * uniform(random, 0, 2) * unit_vector(random);
     q.flight_b.position = q.flight_a.position;
-    switch (integer(random, 0, 6)) {
+    switch (integer(random, 0, 7)) {
       case 0:
         graze(size * (integer(random, 0, 2) ? -1 : 1) * magnitude(random, 1e-10, 0.3), 0);
         break;
@@ -350,6 +353,8 @@ struct Teller {
         break;
       }
       case 4:
+      case 5:
+      case 6:
         put_inside();
         break;
       default:  // anywhere: inside, in a cavity, in a hole, across
@@ -483,7 +488,7 @@ Query Queries::at(std::uint64_t number) {
     const Kind kind = kKinds[pair / kMeshKinds.size() % kKinds.size()];
     second_ = std::make_shared<Prepared>(
         random_shape(random, kind,
-                     scale * (integer(random, 0, 2) ? uniform(random, 0.3, 1) : magnitude(random, 0.02, 1))));
+                     scale * (integer(random, 0, 1) ? uniform(random, 0.3, 1) : magnitude(random, 0.02, 1))));
     pair_ = pair;
   }
   Random random = random_of(seed_, number, 2);
