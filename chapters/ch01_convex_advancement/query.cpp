@@ -32,8 +32,10 @@ void AdvanceResult::clear() {
   AdvanceResult fresh;
   fresh.features.swap(features);
   fresh.certificate.swap(certificate);
+  fresh.certificate_leaves.swap(certificate_leaves);
   fresh.features.clear();
   fresh.certificate.clear();
+  fresh.certificate_leaves.clear();
   *this = std::move(fresh);
 }
 

@@ -46,6 +46,11 @@ struct CertificateRow {
   double advance;      // s
 };
 
+// Leaves of A's hierarchy against leaves of B's (chapter 2): first_a ... first_a + count_a - 1, and so for B.
+struct LeafBlock {
+  int first_a, count_a, first_b, count_b;
+};
+
 struct AdvanceOptions {
   double interval = 1;      // s, the query is about t in [0, interval]
   double tolerance = 1e-6;  // m: `contact` means that the witness points are at most this far apart
@@ -72,6 +77,8 @@ struct AdvanceResult {
   std::int64_t node_pairs = 0;        // 1 for two convex bodies
   std::vector<FeaturePair> features;  // at toc, if status is contact or touching_at_start
   std::vector<CertificateRow> certificate;
+  std::vector<LeafBlock>
+      certificate_leaves;  // chapter 2: what each row is about; chapter 1: none, the whole bodies
 
   void clear();  // for the next query; keeps the storage
 };

@@ -9,11 +9,13 @@ namespace fc::ca {
 namespace {
 
 struct Tables {
+  std::filesystem::path leaves_file;
   TableWriter queries, features;
-  std::optional<TableWriter> certificate;
+  std::optional<TableWriter> certificate, certificate_leaves;
 
   explicit Tables(const RunContext& context)
-      : queries(context.out_dir / "queries.csv", {{"query", ""},
+      : leaves_file(context.out_dir / "certificate_leaves.csv"),
+        queries(context.out_dir / "queries.csv", {{"query", ""},
                                                   {"status", ""},
                                                   {"toc", "1"},
                                                   {"gap_lower", "m"},
@@ -48,6 +50,15 @@ struct Tables {
                                                                                    {"gap_lower", "m"},
                                                                                    {"speed_bound", "m/s"},
                                                                                    {"advance", "s"}});
+    // An earlier run's proof of other answers must not stay beside these.
+    if (!context.certificate) std::filesystem::remove(context.out_dir / "certificate.csv");
+    std::filesystem::remove(leaves_file);
+  }
+  void close() {
+    queries.close();
+    features.close();
+    if (certificate) certificate->close();
+    if (certificate_leaves) certificate_leaves->close();
   }
 
   void write(std::int64_t query, const AdvanceResult& r, double toc, std::int64_t wall_ns) {
@@ -63,6 +74,15 @@ struct Tables {
     for (const CertificateRow& row : r.certificate)
       certificate->row({query, k++, row.t, row.normal.x(), row.normal.y(), row.normal.z(), row.gap_lower,
                         row.speed_bound, row.advance});
+    if (!r.certificate_leaves.empty() && !certificate_leaves)  // of hierarchies only
+      certificate_leaves.emplace(
+          leaves_file,
+          std::vector<Column>{
+              {"query", ""}, {"k", ""}, {"first_a", ""}, {"count_a", ""}, {"first_b", ""}, {"count_b", ""}});
+    k = 0;
+    for (const LeafBlock& block : r.certificate_leaves)
+      certificate_leaves->row({query, k++, std::int64_t{block.first_a}, std::int64_t{block.count_a},
+                               std::int64_t{block.first_b}, std::int64_t{block.count_b}});
   }
 };
 
@@ -137,7 +157,7 @@ void run_queries(const Scene& scene, std::size_t queries, const Ask& ask, const 
     raised += r.tolerance > options.tolerance ? 1 : 0;
     if (queries == 1) {
       summary.add("status", std::string(name_of(r.status)));
-      summary.add("time of contact", toc, "of the interval");
+      summary.add(r.status == Status::unresolved ? "clear until" : "time of contact", toc, "of the interval");
       summary.add("gap, certified lower bound", r.gap_lower, "m");
       summary.add("gap, witness points", r.gap_upper, "m");
       summary.add("features", static_cast<std::int64_t>(r.features.size()));
@@ -145,9 +165,7 @@ void run_queries(const Scene& scene, std::size_t queries, const Ask& ask, const 
     }
     progress.update(static_cast<std::int64_t>(q) + 1);
   }
-  tables.queries.close();
-  tables.features.close();
-  if (tables.certificate) tables.certificate->close();
+  tables.close();
 
   std::sort(times.begin(), times.end());
   summary.add("queries", static_cast<std::int64_t>(queries));

@@ -21,7 +21,7 @@ constexpr double kOnBorder =
     1e-9;  // of the model's reach: a vertex this far beyond a face's border lies over it
 constexpr double kJoined = 1e-12;  // of the models' reach: nearer points have no direction between them
 
-// One model at the pose, in A's axes from A's centre of mass, and the features of one of its pieces that can
+// One model at the pose, in A's axes from A's centre of mass, and the features of one of its leaves that can
 // matter.
 struct Placed {
   const Model& model;
@@ -31,29 +31,36 @@ struct Placed {
   Vec3 vertex(int v) const { return pose * model.mesh.vertices[v]; }
   Vec3 turned(const Vec3& direction) const { return pose.rotation * direction; }
 
-  // Keeps the features of a piece that reach within `depth` (m) of its support plane along n: everything that
+  // Keeps the features of a leaf that reach within `depth` (m) of its support plane along n: everything that
   // is nearer to the other side than the tolerance does.
-  void select(int piece, const Vec3& n, double depth) {
+  void select(int leaf, const Vec3& n, double depth) {
     const Vec3 direction = pose.rotation.transpose() * n;
     const FeatureMesh& mesh = model.mesh;
     const auto height = [&](int v) { return direction.dot(mesh.vertices[v]); };
-    double top = -std::numeric_limits<double>::infinity();
-    for_items(model.piece_vertices, piece, [&](int v) { top = std::max(top, height(v)); });
-    const double low = top - depth;
+    double low = direction.dot(ca::support(model.leaf(leaf), direction).point) - depth;
     vertices.clear();
     edges.clear();
     triangles.clear();
-    for_items(model.piece_vertices, piece, [&](int v) {
+    const auto take_vertex = [&](int v) {
       if (height(v) >= low) vertices.push_back(v);
-    });
-    for_items(model.piece_edges, piece, [&](int e) {
+    };
+    const auto take_edge = [&](int e) {
       const auto& [i, j] = mesh.edges[e].vertex;
       if (!mesh.edges[e].flat && std::max(height(i), height(j)) >= low) edges.push_back(e);
-    });
-    for_items(model.pieces, piece, [&](int t) {
+    };
+    const int triangle = model.boxes.leaf_item[leaf];
+    if (triangle >= 0) {
+      for (const int v : mesh.triangles[triangle]) take_vertex(v);
+      for_items(mesh.triangle_edges, triangle, take_edge);
+      triangles.push_back(triangle);
+      return;
+    }
+    for (int v = 0; v < static_cast<int>(mesh.vertices.size()); ++v) take_vertex(v);
+    for (int e = 0; e < static_cast<int>(mesh.edges.size()); ++e) take_edge(e);
+    for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
       const auto& [i, j, k] = mesh.triangles[t];
       if (std::max({height(i), height(j), height(k)}) >= low) triangles.push_back(t);
-    });
+    }
   }
   template <class Use>
   static void for_items(const Lists& lists, int list, Use use) {
@@ -177,11 +184,11 @@ struct Collector {
     add(x, y, n, FeatureKind::vertex, v, FeatureKind::vertex, w);
   }
 
-  void pieces(const LeafPair& pair, const Vec3& normal_in_a) {
+  void leaves(const LeafPair& pair, const Vec3& normal_in_a) {
     toward = normal_in_a;
     const double depth = 2 * tolerance + std::max(0.0, -pair.gjk.lower);
-    a.select(std::max(0, a.model.tree.nodes[pair.a].piece), toward, depth);
-    b.select(std::max(0, b.model.tree.nodes[pair.b].piece), -toward, depth);
+    a.select(pair.a, toward, depth);
+    b.select(pair.b, -toward, depth);
     for (const int v : a.vertices)
       for (const int t : b.triangles) vertex_face(a, v, b, t, 1);
     for (const int v : b.vertices)
@@ -218,6 +225,13 @@ void sort_and_merge(std::vector<FeaturePair>& pairs, double tolerance) {
     return std::tuple(rank(x), x.kind_a, x.id_a, x.kind_b, x.id_b) <
            std::tuple(rank(y), y.kind_a, y.id_a, y.kind_b, y.id_b);
   });
+  // Leaves share vertices and edges: a pair of features is found once for each pair of their leaves.
+  pairs.erase(std::unique(pairs.begin(), pairs.end(),
+                          [](const FeaturePair& x, const FeaturePair& y) {
+                            return x.kind_a == y.kind_a && x.id_a == y.id_a && x.kind_b == y.kind_b &&
+                                   x.id_b == y.id_b && x.normal.dot(y.normal) > 0;
+                          }),
+              pairs.end());
   std::vector<FeaturePair> kept;
   for (const FeaturePair& pair : pairs) {
     const bool same = std::any_of(kept.begin(), kept.end(), [&](const FeaturePair& other) {
@@ -239,7 +253,7 @@ std::vector<ca::FeaturePair> contact_features(const Model& a, const Model& b, co
   const std::vector<LeafPair> near = leaf_pairs_within(a, b, pose, tolerance, tolerance);
   const LeafPair* nearest = nullptr;
   for (const LeafPair& pair : near) {
-    collector.pieces(pair, to_a * pair.gjk.normal);
+    collector.leaves(pair, to_a * pair.gjk.normal);
     if (nearest == nullptr || pair.gjk.lower < nearest->gjk.lower) nearest = &pair;
   }
   if (nearest != nullptr) {

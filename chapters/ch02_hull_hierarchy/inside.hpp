@@ -10,9 +10,10 @@ namespace fc::hulls {
 // Strackee's formula (1983).
 double winding_number(const FeatureMesh& mesh, const Vec3& point);
 
-// Whether a part of one model lies inside the other though their surfaces are apart: one vertex of every
-// component of either is tested against the other. Costs a pass over all triangles for each: meant for the
-// start of a simulation.
-bool one_inside_other(const Model& a, const Model& b, const ca::PairPose& pose);
+// Whether a part of one model lies inside the other by more than `tolerance` (m), though their surfaces may
+// be apart. Of each component of either a point is asked that lies two tolerances below its own surface: what
+// only rests on the other, flush or in a corner, is outside there. By a ray through the hierarchy; a
+// microsecond or two for 70,000 triangles.
+bool one_inside_other(const Model& a, const Model& b, const ca::PairPose& pose, double tolerance);
 
 }  // namespace fc::hulls

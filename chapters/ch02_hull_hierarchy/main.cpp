@@ -3,6 +3,7 @@
 
 #include "ch01_convex_advancement/query_run.hpp"
 #include "ch02_hull_hierarchy/advance.hpp"
+#include "ch02_hull_hierarchy/hull_model.hpp"
 #include "common/convex_hull.hpp"
 
 namespace {
@@ -10,7 +11,7 @@ namespace {
 using namespace fc;
 
 // The hulls of the upper levels of a shape's hierarchy, to be looked at.
-void record_levels(MotionRecording& motion, int shape, const hulls::Model& model) {
+void record_levels(MotionRecording& motion, int shape, const hulls::HullModel& model) {
   constexpr std::size_t kMostHulls = 64;  // of a level: more are too many to see, and to store
   std::vector<int> level{0};
   for (int k = 0; !level.empty() && level.size() <= kMostHulls; ++k) {
@@ -26,29 +27,37 @@ void record_levels(MotionRecording& motion, int shape, const hulls::Model& model
 
 int run(const Scene& scene, const RunContext& context, Summary& summary) {
   const std::vector<Shape> shapes = build_shapes(scene, false);
+  const auto count = [](std::size_t n) { return static_cast<std::int64_t>(n); };
   std::vector<hulls::Model> models;
   for (const Shape& shape : shapes) {
     const auto start = std::chrono::steady_clock::now();
     models.push_back(hulls::build_model(shape));
     const std::int64_t built_ns = (std::chrono::steady_clock::now() - start) / std::chrono::nanoseconds(1);
     if (shape.kind != Shape::Kind::mesh) continue;
-    const auto count = [](std::size_t n) { return static_cast<std::int64_t>(n); };
     summary.add("shape " + shape.name, shape.report.text());
-    summary.add("shape " + shape.name + ", convex pieces", count(models.back().pieces.start.size()) - 1);
-    summary.add("shape " + shape.name + ", nodes", count(models.back().tree.nodes.size()));
-    summary.add("shape " + shape.name + ", hull points", count(models.back().tree.points.size()));
+    summary.add("shape " + shape.name + ", boxes", count(4 * models.back().boxes.quads.size()));
     summary.add_time("shape " + shape.name + ", time to build", built_ns);
   }
   const hulls::Model& a = models[scene.bodies[0].shape];
   const hulls::Model& b = models[scene.bodies[1].shape];
+  hulls::SearchMemory memory;
+  ca::AdvanceResult result;
   ca::run_queries(
       scene, shapes, ca::query_motions(scene, shapes),
       [&](const ca::Motion& motion_a, const ca::Motion& motion_b, const ca::AdvanceOptions& options) {
-        return hulls::advance(a, motion_a, b, motion_b, options);
+        hulls::advance(a, motion_a, b, motion_b, options, memory, result);
+        return result;
       },
       context, summary,
-      [&](MotionRecording& motion) {
-        for (std::size_t i = 0; i < models.size(); ++i) record_levels(motion, static_cast<int>(i), models[i]);
+      [&](MotionRecording& motion) {  // of a single query
+        for (std::size_t i = 0; i < models.size(); ++i) {
+          const hulls::HullModel hulls = hulls::build_hull_model(models[i]);
+          record_levels(motion, static_cast<int>(i), hulls);
+          if (shapes[i].kind != Shape::Kind::mesh) continue;
+          summary.add("shape " + shapes[i].name + ", convex pieces", count(hulls.pieces.start.size()) - 1);
+          summary.add("shape " + shapes[i].name + ", hulls", count(hulls.tree.nodes.size()));
+          summary.add("shape " + shapes[i].name + ", hull points", count(hulls.tree.points.size()));
+        }
       });
   return 0;
 }

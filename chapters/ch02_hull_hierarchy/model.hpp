@@ -2,30 +2,35 @@
 #pragma once
 
 #include "ch01_convex_advancement/gjk.hpp"
+#include "ch02_hull_hierarchy/box_tree.hpp"
 #include "ch02_hull_hierarchy/feature_mesh.hpp"
-#include "ch02_hull_hierarchy/hull_tree.hpp"
 
 namespace fc::hulls {
 
-// A convex shape is one piece, and its hierarchy one node; a mesh has its convex pieces. Coordinates as in
-// fc::Shape.
+// Coordinates as in fc::Shape. A mesh's leaves are its triangles; a convex shape is one leaf.
 struct Model {
   FeatureMesh mesh;
-  Lists pieces;          // triangles of each piece (none for a core without triangles)
-  Lists piece_vertices;  // and the vertices and edges of each piece, ascending
-  Lists piece_edges;
-  HullTree tree;
-  double radius = 0;  // m, rounding
-  double reach = 0;   // m, of the core about the centre of mass
-  bool filled =
-      true;  // convex: the hull itself is the solid. false: solid only by its surface's inside, or not at all
-  std::vector<int> component_vertex;  // one vertex of each connected component
+  BoxTree boxes;
+  double radius = 0;   // m, rounding
+  double reach = 0;    // m, of the core about the centre of mass
+  bool filled = true;  // convex: the hull itself is the solid. false: solid only by its surface's inside, or
+                       // not at all
+  std::vector<int>
+      component_triangle;  // one triangle of each connected component; none for a core without any
+  std::vector<ca::SupportTable> table;  // one, for a convex shape of many points, or none
 
-  ca::Convex convex(const HullNode& node) const {
-    return {tree.hull(node), radius + node.slack, reach, node.center};
+  ca::Convex leaf(int leaf) const {
+    const std::span<const Vec3> points = boxes.leaf_points(leaf);
+    const Vec3 center = points.size() == 3 ? Vec3((points[0] + points[1] + points[2]) / 3) : middle;
+    return {points, radius, reach, center, {}, table.empty() ? nullptr : table.data()};
   }
+  Vec3 middle = Vec3::Zero();  // m, of the whole core
+
+  // The whole model as one convex shape: good for its reach and radius.
+  ca::Convex whole() const { return {mesh.vertices, radius, reach, middle}; }
 };
 
+// Throws std::invalid_argument for a model that reaches less than 1e-12 m or more than 1e15 m (a point may).
 Model build_model(const Shape& shape);
 
 }  // namespace fc::hulls

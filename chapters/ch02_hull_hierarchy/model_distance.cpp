@@ -1,35 +1,49 @@
 #include "ch02_hull_hierarchy/model_distance.hpp"
 
-#include <queue>
+#include <algorithm>
+
+#include "ch02_hull_hierarchy/box_steps.hpp"
 
 namespace fc::hulls {
 namespace {
 
 struct NodePair {
-  double lower;
-  int a, b;
-  bool operator<(
-      const NodePair& other) const {  // the queue's top: smallest bound, then the order of the trees
-    if (lower != other.lower) return lower > other.lower;
-    return a != other.a ? a > other.a : b > other.b;
-  }
+  double lower;  // m, certified gap
+  Vec3f normal;  // about unit, world, from A to B
+  NodeId a, b;
 };
 
-// The children of the larger node, each with the other node.
+bool leaves(const Model& a, const Model& b, const NodePair& pair) {
+  return a.boxes.child(pair.a) < 0 && b.boxes.child(pair.b) < 0;
+}
+
+// The four children of the larger node, each with the other node.
 template <class Visit>
-void open(const Model& a, const Model& b, int node_a, int node_b, Visit visit) {
-  const HullNode& na = a.tree.nodes[node_a];
-  const HullNode& nb = b.tree.nodes[node_b];
-  if (nb.leaf() || (!na.leaf() && na.radius >= nb.radius)) {
-    visit(na.left, node_b);
-    visit(na.right, node_b);
-  } else {
-    visit(node_a, nb.left);
-    visit(node_a, nb.right);
+void open(const Model& a, const Model& b, const PairViews& views, const NodePair& pair, Visit visit) {
+  const bool open_a = b.boxes.child(pair.b) < 0 ||
+                      (a.boxes.child(pair.a) > 0 && a.boxes.radius(pair.a) >= b.boxes.radius(pair.b));
+  const OpenedView& view = open_a ? views.a : views.b;
+  const BoxTree& tree = open_a ? a.boxes : b.boxes;
+  const int below = tree.child(open_a ? pair.a : pair.b);
+  const BoxQuad& quad = tree.quads[below];
+  const double sign = open_a ? 1 : -1;
+  const Vec3 hint = view.rotation * (sign * pair.normal.cast<double>().normalized());
+  const BoxSteps steps = box_steps(quad, open_a ? b.boxes : a.boxes, open_a ? pair.b : pair.a, view,
+                                   hint.cast<float>(), {0, 0, 0});
+  for (int lane = 0; lane < 4 && quad.child[lane] != 0; ++lane) {
+    const Vec3 n(steps.normal.x[lane], steps.normal.y[lane], steps.normal.z[lane]);
+    const NodeId child = 4 * below + lane;
+    visit(NodePair{steps.gap[lane] - a.radius - b.radius,
+                   (sign * (view.rotation.transpose() * n)).cast<float>(), open_a ? child : pair.a,
+                   open_a ? pair.b : child});
   }
 }
 
-constexpr ca::GjkOptions kInnerAccuracy{0, 0.05, 128};  // to sort and to cull, bounds within 5 % do
+bool farther(const NodePair& x,
+             const NodePair& y) {  // the queue's top: smallest bound, then the order of the trees
+  if (x.lower != y.lower) return x.lower > y.lower;
+  return x.a != y.a ? x.a > y.a : x.b > y.b;
+}
 
 }  // namespace
 
@@ -46,54 +60,55 @@ ca::GjkResult leaf_distance(const ca::Convex& a, const ca::Convex& b, const ca::
 ModelDistance model_distance(const Model& a, const Model& b, const ca::PairPose& pose, double tolerance,
                              double cutoff) {
   ModelDistance result;
-  result.upper = std::numeric_limits<double>::infinity();
-  result.lower = std::numeric_limits<double>::infinity();
-  std::priority_queue<NodePair> queue;
-  const auto consider = [&](int node_a, int node_b) {
-    const HullNode& na = a.tree.nodes[node_a];
-    const HullNode& nb = b.tree.nodes[node_b];
-    const bool leaves = na.leaf() && nb.leaf();
-    ++result.distance_calls;
-    LeafPair pair{node_a, node_b, {}};
-    if (!leaves) {
-      const ca::GjkResult g = ca::distance(a.convex(na), b.convex(nb), pose, kInnerAccuracy);
-      if (g.lower < std::min(result.upper, cutoff)) queue.push({g.lower, node_a, node_b});
-      return;
+  result.upper = result.lower = std::numeric_limits<double>::infinity();
+  const PairViews views = views_at_rest(pose);
+  std::vector<NodePair> queue{{-std::numeric_limits<double>::infinity(), Vec3f::UnitX(), 0, 0}};
+  while (!queue.empty()) {
+    const NodePair top = queue.front();
+    if (top.lower >= std::min({result.lower, result.upper, cutoff})) break;
+    std::pop_heap(queue.begin(), queue.end(), farther);
+    queue.pop_back();
+    if (!leaves(a, b, top)) {
+      open(a, b, views, top, [&](const NodePair& child) {
+        ++result.node_pairs;
+        if (child.lower >= std::min(result.upper, cutoff)) return;
+        queue.push_back(child);
+        std::push_heap(queue.begin(), queue.end(), farther);
+      });
+      continue;
     }
-    pair.gjk = leaf_distance(a.convex(na), b.convex(nb), pose, tolerance);
+    ++result.leaf_pairs;
+    const int leaf_a = ~a.boxes.child(top.a), leaf_b = ~b.boxes.child(top.b);
+    const LeafPair pair{leaf_a, leaf_b, leaf_distance(a.leaf(leaf_a), b.leaf(leaf_b), pose, tolerance)};
     result.upper = std::min(result.upper, pair.gjk.upper);
     if (pair.gjk.lower < result.lower) {
       result.lower = pair.gjk.lower;
       if (pair.gjk.lower <= cutoff) result.nearest = pair;
     }
-  };
-  consider(0, 0);
-  while (!queue.empty()) {
-    const NodePair top = queue.top();
-    if (top.lower >= std::min(result.lower, cutoff)) break;
-    queue.pop();
-    open(a, b, top.a, top.b, consider);
   }
-  if (result.lower > cutoff) result.lower = std::min(result.lower, cutoff);
+  // What was never opened is no nearer than the queue's first, nor than the cutoff.
+  if (!queue.empty()) result.lower = std::min(result.lower, queue.front().lower);
+  result.lower = std::min(result.lower, cutoff);
   return result;
 }
 
 std::vector<LeafPair> leaf_pairs_within(const Model& a, const Model& b, const ca::PairPose& pose,
                                         double threshold, double tolerance) {
   std::vector<LeafPair> found;
-  std::vector<std::pair<int, int>> stack{{0, 0}};
+  const PairViews views = views_at_rest(pose);
+  std::vector<NodePair> stack{{0, Vec3f::UnitX(), 0, 0}};
   while (!stack.empty()) {
-    const auto [node_a, node_b] = stack.back();
+    const NodePair top = stack.back();
     stack.pop_back();
-    const HullNode& na = a.tree.nodes[node_a];
-    const HullNode& nb = b.tree.nodes[node_b];
-    if (na.leaf() && nb.leaf()) {
-      const ca::GjkResult g = leaf_distance(a.convex(na), b.convex(nb), pose, tolerance);
-      if (g.lower <= threshold) found.push_back({node_a, node_b, g});
+    if (!leaves(a, b, top)) {
+      open(a, b, views, top, [&](const NodePair& child) {
+        if (child.lower <= threshold) stack.push_back(child);
+      });
       continue;
     }
-    if (ca::distance(a.convex(na), b.convex(nb), pose, kInnerAccuracy).lower > threshold) continue;
-    open(a, b, node_a, node_b, [&](int child_a, int child_b) { stack.push_back({child_a, child_b}); });
+    const int leaf_a = ~a.boxes.child(top.a), leaf_b = ~b.boxes.child(top.b);
+    const ca::GjkResult g = leaf_distance(a.leaf(leaf_a), b.leaf(leaf_b), pose, tolerance);
+    if (g.lower <= threshold) found.push_back({leaf_a, leaf_b, g});
   }
   return found;
 }

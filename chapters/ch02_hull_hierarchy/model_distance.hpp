@@ -1,28 +1,30 @@
 // Distance of two models at one pose.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "ch02_hull_hierarchy/model.hpp"
 
 namespace fc::hulls {
 
+// Two leaves, with what GJK knows of them.
 struct LeafPair {
-  int a = -1, b = -1;  // nodes of the two trees, both leaves
+  int a = -1, b = -1;  // leaves
   ca::GjkResult
       gjk;  // bounds, plane and witness points (from A's centre of mass); lower < 0: overlap along the plane
 };
 
 struct ModelDistance {
   double lower =
-      0;  // m, certified; negative: a lower bound of the signed distance of the deepest pair of pieces
-  double upper = 0;  // m, of the nearest witness points; 0 if pieces touch
-  LeafPair nearest;  // not set (a = -1) if nothing lies within the cutoff
-  int distance_calls = 0;
+      0;  // m, certified; negative: a lower bound of the signed distance of the deepest pair of leaves
+  double upper = 0;                             // m, of the nearest witness points; 0 if leaves touch
+  LeafPair nearest;                             // not set (a = -1) if nothing lies within the cutoff
+  std::int64_t node_pairs = 0, leaf_pairs = 0;  // that were looked at
 };
 
-// Distance of the surfaces' pieces, best first: the pair of nodes with the smallest lower bound is opened
-// next, and what cannot come nearer than the nearest witness points is never opened. `tolerance` (m) as for
+// Distance of the surfaces, best first: the pair of nodes with the smallest lower bound is opened next, and
+// what cannot come nearer than the nearest witness points is never opened. `tolerance` (m) as for
 // leaf_distance. Above `cutoff` (m) only lower >= cutoff is promised. A solid inside another is not noticed
 // here, but by inside.hpp.
 ModelDistance model_distance(const Model& a, const Model& b, const ca::PairPose& pose, double tolerance,

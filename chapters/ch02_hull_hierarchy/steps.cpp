@@ -10,46 +10,38 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
 
+constexpr int kMostLooks = 16;
+
 // One body as the plane sees it: along the direction n, towards the other body.
 struct Side {
   Vec3 direction;  // n in the body's axes
-  Vec3 turn;       // n x w in the body's axes: a vertex x moves with speed + turn.x along n
-  Vec3 spin;       // w in the body's axes
-  double turn_size;
-  double speed;                       // of the centre of mass along n
-  double support = -kInfinity;        // largest direction.x
-  double support_speed = -kInfinity;  // and the fastest speed there
+  Vec3 turn;       // n x w in the body's axes: a point x moves with n.v + turn.x along n
+  double rate;     // rad/s, |n x w|
+  double bend;     // m/s^2, the most that a point's speed along n changes in a second
 
-  Side(const ca::Motion& m, const Mat3& rotation, const Vec3& n, double t, const ca::Convex& node)
-      : direction(rotation.transpose() * n),
-        turn(rotation.transpose() * n.cross(m.spin)),
-        spin(rotation.transpose() * m.spin),
-        turn_size(turn.norm()),
-        speed(n.dot(m.velocity_at(t))) {
-    for (const Vec3& x : node.points) {
-      const double height = direction.dot(x);
-      if (height < support) continue;
-      support = height;
-      support_speed = speed + turn.dot(x);
-    }
-  }
-
-  // When a vertex of this side could first have used up `room` against a plane of speed plane_speed; `bend`
-  // is what the accelerations of body and plane add.
-  double time(const ca::Convex& node, double plane_speed, double bend, double room, double best) const {
-    const double noise = kRounding * (std::abs(speed) + std::abs(plane_speed) + turn_size * node.reach);
-    for (const Vec3& x : node.points) {
-      const double free = room + (support - direction.dot(x));
-      const double closing = speed + turn.dot(x) - plane_speed + noise;
-      const double k = bend + 0.5 * turn_size * spin.cross(x).norm();
-      if (best < kInfinity && closing * best + std::max(k, 0.0) * best * best <= free) continue;
-      best = std::min(best, ca::crossing_time(closing, k, free));
-    }
-    return best;
+  Side(const ca::Motion& m, const Mat3& rotation, const Vec3& n, const ca::Convex& shape)
+      : direction(rotation.transpose() * n), turn(rotation.transpose() * n.cross(m.spin)), rate(turn.norm()) {
+    const Vec3 spin = rotation.transpose() * m.spin;
+    double sweep2 = 0;
+    if (shape.table != nullptr)  // many points: the farthest one stands for all
+      sweep2 = spin.squaredNorm() * shape.reach * shape.reach;
+    else
+      for (const Vec3& x : shape.points) sweep2 = std::max(sweep2, spin.cross(x).squaredNorm());
+    bend = rate * std::sqrt(sweep2);
   }
 };
 
 }  // namespace
+
+double whole_step(const ca::Motion& a, const ca::Convex& shape_a, const ca::Motion& b,
+                  const ca::Convex& shape_b, const Vec3& n, double t, double end, double room) {
+  const Vec3 acceleration = a.acceleration - b.acceleration,
+             velocity = (a.velocity - b.velocity) + t * acceleration;
+  const double turning = n.cross(a.spin).norm() * shape_a.reach + n.cross(b.spin).norm() * shape_b.reach;
+  const double speed = n.dot(velocity) + std::max(0.0, n.dot(acceleration) * (end - t)) + turning +
+                       kRounding * (velocity.norm() + turning);
+  return speed > 0 ? room / speed : kInfinity;
+}
 
 SafeStep ball_step(const ca::Motion& a, const ca::Convex& node_a, double radius_a, const ca::Motion& b,
                    const ca::Convex& node_b, double radius_b, const ca::PairPose& pose, const Vec3& n,
@@ -69,26 +61,39 @@ SafeStep ball_step(const ca::Motion& a, const ca::Convex& node_a, double radius_
                    0.5 * std::max(0.0, fall);
   SafeStep step;
   step.time = ca::crossing_time(c, k, room);
-  // About the centres of mass: chapter 1's bound, which does not grow with time.
-  const double whole =
-      linear + std::max(0.0, fall * (end - t)) + rate_a * node_a.reach + rate_b * node_b.reach + noise;
-  step.time = std::max(step.time, whole > 0 ? room / whole : kInfinity);
+  step.time = std::max(step.time, whole_step(a, node_a, b, node_b, n, t, end, room));
   step.speed = step.time < kInfinity ? room / step.time : 0;
   return step;
 }
 
-SafeStep plane_step(const ca::Motion& a, const ca::Convex& node_a, const ca::Motion& b,
-                    const ca::Convex& node_b, const ca::PairPose& pose, const Vec3& n, double t,
-                    double room) {
-  const Side side_a(a, pose.rotation_a, n, t, node_a);
-  const Side side_b(b, pose.rotation_b, -n, t, node_b);
-  const double plane_speed = 0.5 * (side_a.support_speed - side_b.support_speed);  // along n
-  // Against a plane of the mean acceleration either body has half of the relative one.
-  const double bend = 0.25 * n.dot(a.acceleration - b.acceleration);
+SafeStep points_step(const ca::Motion& a, const ca::Convex& shape_a, const ca::Motion& b,
+                     const ca::Convex& shape_b, const ca::PairPose& pose, const Vec3& n, double t, double end,
+                     double room) {
+  const Side side_a(a, pose.rotation_a, n, shape_a), side_b(b, pose.rotation_b, -n, shape_b);
+  const Vec3 velocity = (a.velocity - b.velocity) + t * (a.acceleration - b.acceleration);
+  const double k = 0.5 * (side_a.bend + side_b.bend + std::max(0.0, n.dot(a.acceleration - b.acceleration)));
+  const double noise =
+      kRounding * (velocity.norm() + side_a.rate * shape_a.reach + side_b.rate * shape_b.reach);
+  const double straight = n.dot(velocity) + noise, remaining = end - t;
+
+  // Ahead now: the supports, which the room is measured from.
+  Vec3 x = ca::support(shape_a, side_a.direction).point, y = ca::support(shape_b, side_b.direction).point;
+  const double supports = side_a.direction.dot(x) + side_b.direction.dot(y);
   SafeStep step;
-  step.time = side_a.time(node_a, plane_speed, bend, 0.5 * room, kInfinity);
-  step.time = side_b.time(node_b, -plane_speed, bend, 0.5 * room, step.time);
-  step.speed = step.time < kInfinity ? room / step.time : 0;
+  double h = kInfinity;
+  for (int looks = 0; looks < kMostLooks; ++looks) {
+    const double free = room + supports - side_a.direction.dot(x) - side_b.direction.dot(y);
+    const double closing = straight + side_a.turn.dot(x) + side_b.turn.dot(y);
+    const double crossing = ca::crossing_time(closing, k, std::max(free, 0.0));
+    if (looks > 0 && !(crossing < h)) {  // the same points, or others that are no worse: h is proved
+      step.time = h < remaining ? h : kInfinity;
+      break;
+    }
+    h = std::min(crossing, remaining);
+    x = ca::support(shape_a, side_a.direction + h * side_a.turn).point;
+    y = ca::support(shape_b, side_b.direction + h * side_b.turn).point;
+  }
+  step.speed = step.time < kInfinity && step.time > 0 ? room / step.time : 0;
   return step;
 }
 

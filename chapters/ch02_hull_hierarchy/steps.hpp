@@ -20,10 +20,19 @@ SafeStep ball_step(const ca::Motion& a, const ca::Convex& node_a, double radius_
                    const ca::Convex& node_b, double radius_b, const ca::PairPose& pose, const Vec3& n,
                    double t, double end, double room);
 
-// A plane of normal n that moves with the mean speed of the two support points, and half of `room` for either
-// side: the first time at which a vertex could use up its half. Exact in each vertex's velocity, so a pair
-// that parts, or slides along a face, is not held up. Cost: one pass over the vertices.
-SafeStep plane_step(const ca::Motion& a, const ca::Convex& node_a, const ca::Motion& b,
-                    const ca::Convex& node_b, const ca::PairPose& pose, const Vec3& n, double t, double room);
+// Chapter 1's bound of whole bodies, about their centres of mass: how long until `room` could be used up
+// along n. It does not grow with time, so it may be infinite.
+double whole_step(const ca::Motion& a, const ca::Convex& shape_a, const ca::Motion& b,
+                  const ca::Convex& shape_b, const Vec3& n, double t, double end, double room);
+
+// The points' own velocities: along n (unit, world, A to B) the pair has `room` (m) more than it must keep,
+// at time t of a motion that goes on until `end` (s). A point x of a body moves along n by h (n.v + (n x
+// w).x), and at most h^2/2 |n x w| |w x x| more, so after h seconds the one with the largest (n + h n x w).x
+// is ahead, up to that. What is left of the room is concave in h: if some is left after h seconds, it was so
+// in between. Exact in each point's velocity, so a pair that parts, or slides along a face, is not held up.
+// Cost: two or three passes over the points.
+SafeStep points_step(const ca::Motion& a, const ca::Convex& shape_a, const ca::Motion& b,
+                     const ca::Convex& shape_b, const ca::PairPose& pose, const Vec3& n, double t, double end,
+                     double room);
 
 }  // namespace fc::hulls

@@ -57,8 +57,7 @@ void find_next_contact(World& world, Pair& pair, double now, double dt, StepRepo
   const ca::PairPose pose(motion_a, motion_b, 0);
   const double gap = hulls::model_distance(model_a, model_b, pose, world.tolerance).lower;
   report.min_gap = std::min(report.min_gap, gap);
-  const double smallest = kRoundingTerms * ca::rounding_term(model_a.convex(model_a.tree.nodes[0]),
-                                                             model_b.convex(model_b.tree.nodes[0]), pose);
+  const double smallest = kRoundingTerms * ca::rounding_term(model_a.whole(), model_b.whole(), pose);
   hulls::ReachOptions options;
   options.interval = dt - now;
   options.tolerance = world.tolerance;

@@ -44,11 +44,7 @@ int run(const Scene& scene, const RunContext& context, Summary& summary) {
   summary.add("bodies", static_cast<std::int64_t>(world.bodies.size()));
   for (std::size_t i = 0; i < world.shapes.size(); ++i) {
     const Shape& shape = world.shapes[i];
-    if (shape.kind == Shape::Kind::mesh) {
-      summary.add("shape " + shape.name, shape.report.text());
-      summary.add("shape " + shape.name + ", convex pieces",
-                  static_cast<std::int64_t>(world.models[i].pieces.start.size()) - 1);
-    }
+    if (shape.kind == Shape::Kind::mesh) summary.add("shape " + shape.name, shape.report.text());
     summary.add("shape " + shape.name + ", mass from", shape.mass_source);
   }
   summary.add_time("time to build shapes and hierarchies", built_ns);

@@ -20,7 +20,8 @@ void refuse_overlaps(const World& world, const Scene& scene) {
     const hulls::Model& model_b = world.model_of(pair.b);
     const ca::PairPose pose(world.motion(pair.a, 0), world.motion(pair.b, 0), 0);
     const double gap = hulls::model_distance(model_a, model_b, pose, world.tolerance, world.tolerance).lower;
-    const bool inside = gap >= -world.tolerance && hulls::one_inside_other(model_a, model_b, pose);
+    const bool inside =
+        gap >= -world.tolerance && hulls::one_inside_other(model_a, model_b, pose, world.tolerance);
     if (gap >= -world.tolerance && !inside) continue;
     const std::string how = inside ? "one lies inside the other" : fmt::format("by about {:.3g} m", -gap);
     throw InputError(

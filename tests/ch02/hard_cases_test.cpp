@@ -582,7 +582,7 @@ TEST(MeshHardCase, ALimitIsNotAMiss) {
 // One vertex of each component is asked whether it lies inside, even if it lies on the surface: there the
 // winding number is 1/2 and rounding decides, in a crook it is 3/4, and a nanometre below the surface it
 // is 1.
-TEST(MeshHardCase, DISABLED_RestingOnAMeshIsNotInsideIt) {
+TEST(MeshHardCase, RestingOnAMeshIsNotInsideIt) {
   const Body crook(l_prism()), block(tiled_box({1, 1, 1}, {8, 8, 8}));
   const TriangleMesh cube = box_core({0.2, 0.2, 0.2});
   for (const double off : {0.0, 1e-9, -1e-9, 5e-7, -5e-7}) {
@@ -602,7 +602,7 @@ TEST(MeshHardCase, DISABLED_RestingOnAMeshIsNotInsideIt) {
 }
 
 // Ten tolerances thick, and all of it inside its twin: the pieces are flat, and their overlap has no depth.
-TEST(MeshHardCase, DISABLED_IdenticalThinPlatesInOnePose) {
+TEST(MeshHardCase, IdenticalThinPlatesInOnePose) {
   const Body plate(tiled_box({2, 2, 1e-5}, {8, 8, 1}));
   EXPECT_EQ(ask(plate, at(kStill), plate, at(kStill)).status, Status::penetrating_at_start);
 }

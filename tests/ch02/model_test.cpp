@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <set>
 
+#include "ch02_hull_hierarchy/hull_model.hpp"
 #include "ch02_hull_hierarchy/inside.hpp"
 #include "ch02_hull_hierarchy/model_distance.hpp"
 #include "tests/support/test_models.hpp"
@@ -79,7 +80,7 @@ TEST(FeatureMesh, AdjacencyOfHardMeshes) {
 }
 
 // Every triangle in one piece; sampled points of every piece's hull lie in the solid, or on its surface.
-void check_pieces(const Model& model, const TriangleMesh& core, int samples, int every) {
+void check_pieces(const HullModel& model, const TriangleMesh& core, int samples, int every) {
   std::vector<int> uses(core.triangles.size(), 0);
   for (const int t : model.pieces.items) ++uses.at(t);
   for (const int n : uses) ASSERT_EQ(n, 1);
@@ -87,7 +88,9 @@ void check_pieces(const Model& model, const TriangleMesh& core, int samples, int
   const LongPose here{Eigen::Matrix<Long, 3, 3>::Identity(), Vec<Long>::Zero()};
   const Soup<double> surface = placed<double>(core, here);
   for (int piece = 0; piece < count(model.pieces); piece += every) {
-    const std::vector<int> vertices = list(model.piece_vertices, piece);
+    std::set<int> vertices;
+    for (const int t : list(model.pieces, piece))
+      vertices.insert(core.triangles[t].begin(), core.triangles[t].end());
     for (int k = 0; k < samples; ++k) {
       Vec3 x = Vec3::Zero();
       double sum = 0;
@@ -107,18 +110,19 @@ void check_pieces(const Model& model, const TriangleMesh& core, int samples, int
 TEST(ConvexPieces, AddNothingOutsideTheSolid) {
   for (const auto& [name, core] : hard_meshes()) {
     SCOPED_TRACE(name);
-    check_pieces(model_of(core), core, 60, 1);
+    check_pieces(build_hull_model(model_of(core)), core, 60, 1);
   }
-  EXPECT_EQ(count(model_of(box_core({1, 1, 1})).pieces), 1);
-  EXPECT_LE(count(model_of(l_prism()).pieces), 8);
-  EXPECT_EQ(count(model_of(l_prism(), false).pieces), 24);  // a surface: each triangle alone
+  EXPECT_EQ(count(build_hull_model(model_of(box_core({1, 1, 1}))).pieces), 1);
+  EXPECT_LE(count(build_hull_model(model_of(l_prism())).pieces), 8);
+  EXPECT_EQ(count(build_hull_model(model_of(l_prism(), false)).pieces),
+            24);  // a surface: each triangle alone
 }
 
 TEST(ConvexPieces, OfTheBunny) {
   if (!std::filesystem::exists(bunny_file)) GTEST_SKIP() << bunny_file << " is not there";
   const PreparedMesh bunny = prepare_mesh(load_mesh(bunny_file));
   ASSERT_TRUE(bunny.report.solid);
-  const Model model = model_of(bunny.mesh);
+  const HullModel model = build_hull_model(model_of(bunny.mesh));
   EXPECT_LT(count(model.pieces), static_cast<int>(bunny.mesh.triangles.size()) / 2);
   check_pieces(model, bunny.mesh, 1, count(model.pieces) / 300);
 }
@@ -129,7 +133,7 @@ TEST(HullTree, ParentsContainTheirChildren) {
   meshes.emplace_back("large", bumpy_ball(random, 30));
   for (const auto& [name, core] : meshes) {
     SCOPED_TRACE(name);
-    const Model model = model_of(core);
+    const HullModel model = build_hull_model(model_of(core));
     std::vector<int> leaves(count(model.pieces), 0), parents(model.tree.nodes.size(), 0);
     for (const HullNode& node : model.tree.nodes) {
       for (const Vec3& x : model.tree.hull(node)) ASSERT_LE((x - node.center).norm(), node.radius);
@@ -140,11 +144,12 @@ TEST(HullTree, ParentsContainTheirChildren) {
       };
       if (node.leaf()) {
         ++leaves.at(node.piece);
-        for (const int v : list(model.piece_vertices, node.piece))
-          for (int k = 0; k < 10; ++k) {
-            const Vec3 d = unit_vector(random);
-            ASSERT_GE(top(node, d), d.dot(core.vertices[v]) - 1e-14 * model.reach);
-          }
+        for (const int t : list(model.pieces, node.piece))
+          for (const int v : core.triangles[t])
+            for (int k = 0; k < 10; ++k) {
+              const Vec3 d = unit_vector(random);
+              ASSERT_GE(top(node, d), d.dot(core.vertices[v]) - 1e-14 * model.reach);
+            }
         continue;
       }
       for (const int child : {node.left, node.right}) {
@@ -195,7 +200,7 @@ TEST(ModelDistance, AgainstAllPairsOfTriangles) {
     EXPECT_GE(d.upper, truth - 1e-12);
     EXPECT_LE(d.upper - d.lower, std::max(tolerance / 16, 1e-6 * truth) + 1e-12);
     ASSERT_GE(d.nearest.a, 0);
-    EXPECT_LT(d.distance_calls, static_cast<int>(a.tree.nodes.size() * b.tree.nodes.size()));
+    EXPECT_LT(d.leaf_pairs, a.boxes.leaves() * b.boxes.leaves());
     for (const double cutoff : {0.5 * truth, 2 * truth}) {
       const ModelDistance c = model_distance(a, b, pose, tolerance, cutoff);
       EXPECT_LE(c.lower, truth);
@@ -226,7 +231,7 @@ TEST(Inside, WindingNumbersAndNestedBodies) {
   }
   const Model shell = model_of(hollow), block = model_of(bumpy_ball(random, 6));
   const auto inside = [](const Model& a, const Model& b, const Vec3& at) {
-    return one_inside_other(a, b, ca::PairPose(motion({0, 0, 0}), motion(at), 0));
+    return one_inside_other(a, b, ca::PairPose(motion({0, 0, 0}), motion(at), 0), 1e-6);
   };
   const Model pebble = model_of(box({0.1, 0.1, 0.1})), ball = model_of(sphere(0.05));
   for (const Model* small : {&pebble, &ball}) {

@@ -81,7 +81,7 @@ RC_GTEST_PROP(Steps, TheGapKeepsItsRest, ()) {
     const Long rounding = ca::rounding_term(q.node_a, q.node_b, pose);
     const SafeStep ball =
         ball_step(q.ma, q.node_a, q.radius_a, q.mb, q.node_b, q.radius_b, pose, n, t, end, room);
-    const SafeStep plane = plane_step(q.ma, q.node_a, q.mb, q.node_b, pose, n, t, room);
+    const SafeStep plane = points_step(q.ma, q.node_a, q.mb, q.node_b, pose, n, t, end, room);
     for (const SafeStep& step : {ball, plane}) {
       RC_ASSERT(step.time > 0);
       const double h = std::min(step.time, end - t);
@@ -102,7 +102,7 @@ TEST(Steps, TranslationIsExact) {
     const ca::Motion b = motion({2, 0, 0}, Quat::Identity(), vb, Vec3::Zero(), pull_b);
     const ca::PairPose pose(a, b, 0);
     return std::array{ball_step(a, node, 1, b, node, 1, pose, Vec3::UnitX(), 0, end, 0.9),
-                      plane_step(a, node, b, node, pose, Vec3::UnitX(), 0, 0.9)};
+                      points_step(a, node, b, node, pose, Vec3::UnitX(), 0, end, 0.9)};
   };
   for (const SafeStep& s : steps({1, 2, 0}, {-2, 0, 5}, {0, 0, 0}, 10)) {
     EXPECT_NEAR(s.time, 0.3, 1e-12);
@@ -117,9 +117,9 @@ TEST(Steps, TranslationIsExact) {
     EXPECT_NEAR(s.time, (2 + std::sqrt(4 + 9)) / 5, 1e-12);
 }
 
-// A vertex that leaves a face while the body's middle still comes nearer: the plane step sees it, the balls
+// A vertex that leaves a face while the body's middle still comes nearer: the points' step sees it, the balls
 // do not.
-TEST(Steps, ThePlaneStepLetsAContactPart) {
+TEST(Steps, ThePointsStepLetsAContactPart) {
   const Solid cube = box({1, 1, 1});
   const ca::Convex node = cube.convex();
   const Quat tilt(Eigen::AngleAxisd(0.3, Vec3::UnitY()));
@@ -128,7 +128,7 @@ TEST(Steps, ThePlaneStepLetsAContactPart) {
   const ca::PairPose pose(a, b, 0);
   const double room = 1e-6;
   const SafeStep ball = ball_step(a, node, 0.9, b, node, 0.9, pose, Vec3::UnitZ(), 0, 1, room);
-  const SafeStep plane = plane_step(a, node, b, node, pose, Vec3::UnitZ(), 0, room);
+  const SafeStep plane = points_step(a, node, b, node, pose, Vec3::UnitZ(), 0, 1, room);
   EXPECT_LT(ball.time, 1e-5);
   EXPECT_GT(plane.time, 1e-7);
 }
