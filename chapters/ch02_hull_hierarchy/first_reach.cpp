@@ -66,8 +66,9 @@ struct Search {
     if (memory.certificate != nullptr) {
       const BoxQuad& quad_a = a.boxes.quads[node_a >> 2];
       const BoxQuad& quad_b = b.boxes.quads[node_b >> 2];
+      const double lasts = std::min(step, remaining);
       memory.certificate->certificate.push_back(
-          {t, n.normalized(), gap, (gap - options.target) / step, std::min(step, remaining)});
+          {t, n.normalized(), gap, (gap - options.target) / lasts, lasts});
       memory.certificate->certificate_leaves.push_back(
           {quad_a.first_leaf[node_a & 3], quad_a.leaf_count[node_a & 3], quad_b.first_leaf[node_b & 3],
            quad_b.leaf_count[node_b & 3]});
