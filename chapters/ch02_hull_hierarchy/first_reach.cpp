@@ -214,6 +214,7 @@ struct Search {
     look_from(0);
     if (memory.coherent && memory.last_a >= 0 && memory.certificate == nullptr) begin_with_last();
     wait(0, 0, Vec3::UnitX(), 0, 0);
+    // ANCHOR: run
     while (!queue.empty()) {
       const Waiting top = queue.front();
       // Whether the two touch at the start is told in any case.
@@ -235,6 +236,7 @@ struct Search {
         return;
       }
     }
+    // ANCHOR_END: run
     reach.status = Reach::Status::clear;
     reach.time = options.interval;
   }
