@@ -1,0 +1,30 @@
+// Caught by: Ex03OwnTime.TheFirstLeafOnTopNeedNotBeIt
+// A pair of leaves on top counts as the contact, though it has not reached its target.
+#include "ex03_own_time.hpp"
+
+#include <queue>
+
+namespace fc::exercises {
+
+Found first_contact(const Pairs& pairs, double interval, int most) {
+  struct Waiting {
+    double time;
+    int pair;
+    bool operator<(const Waiting& other) const { return time > other.time; }
+  };
+  std::priority_queue<Waiting> queue;
+  queue.push({0, pairs.root});
+  for (int looks = 0; !queue.empty(); ++looks) {
+    const Waiting top = queue.top();
+    if (looks == most) return {ca::Status::unresolved, top.time, -1};
+    queue.pop();
+    const Look look = pairs.look(top.pair, top.time);
+    if (look.reached || look.children.empty()) return {ca::Status::contact, top.time, top.pair};
+    if (look.clear_until >= interval) continue;
+    if (look.children.empty()) queue.push({look.clear_until, top.pair});
+    for (const int child : look.children) queue.push({look.clear_until, child});
+  }
+  return {ca::Status::separated, interval, -1};
+}
+
+}  // namespace fc::exercises
