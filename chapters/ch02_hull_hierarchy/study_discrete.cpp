@@ -62,6 +62,7 @@ struct Contact {
   double toc = 1;                                       // s
   std::int64_t features = 0;                            // at the tolerance ...
   std::int64_t more_features = 0;                       // ... and at a thousandth of the size
+  std::int64_t features_ns = 0;                         // to find them all, at the tolerance
   Vec3 normal = Vec3::Zero();                           // of the first one, from A to B
   Vec3 point_a = Vec3::Zero(), point_b = Vec3::Zero();  // m, in the bodies' axes
 };
@@ -75,6 +76,9 @@ Contact contact_of(const StudyCase& c, const MotionPair& m) {
   if (!contact.hit) return contact;
   contact.toc = r.toc;
   contact.features = static_cast<std::int64_t>(r.features.size());
+  const auto start = std::chrono::steady_clock::now();
+  contact_features(c.model, c.model, ca::PairPose(m.a, m.b, r.toc), m.a.position_at(r.toc), r.tolerance);
+  contact.features_ns = (std::chrono::steady_clock::now() - start) / std::chrono::nanoseconds(1);
   contact.more_features = static_cast<std::int64_t>(
       contact_features(c.model, c.model, ca::PairPose(m.a, m.b, r.toc), m.a.position_at(r.toc), 1e-3 * c.size)
           .size());
@@ -130,12 +134,15 @@ void study_discrete(const StudyCase& c, const StudyOptions& options) {
                                                    {"features_p95", ""},
                                                    {"features_1e-3", ""},
                                                    {"features_1e-3_p95", ""},
+                                                   {"discrete_frames", ""},
+                                                   {"continuous_frames", ""},
                                                    {"discrete_node_pairs", "1/frame"},
                                                    {"discrete_leaf_pairs", "1/frame"},
                                                    {"continuous_node_pairs", "1/frame"},
                                                    {"continuous_leaf_pairs", "1/frame"},
                                                    {"discrete_ns", "1/frame"},
                                                    {"all_pairs_ns", "1/hit"},
+                                                   {"features_ns", "1/hit"},
                                                    {"continuous_ns", "1/frame"}});
   const double tiny = 1e-9 * c.size;
   ca::AdvanceOptions asked;
@@ -148,11 +155,13 @@ void study_discrete(const StudyCase& c, const StudyOptions& options) {
   for (const StudyCase::Family& family : c.families) {
     std::vector<Contact> contacts;
     std::vector<double> features, more_features;
+    double features_ns = 0;
     for (const MotionPair& m : family.motions) {
       contacts.push_back(contact_of(c, m));
       if (!contacts.back().hit) continue;
       features.push_back(static_cast<double>(contacts.back().features));
       more_features.push_back(static_cast<double>(contacts.back().more_features));
+      features_ns += static_cast<double>(contacts.back().features_ns);
     }
     for (int frames = 1; frames <= 256; frames *= 2) {
       Cost discrete, every_pair, continuous;
@@ -204,12 +213,15 @@ void study_discrete(const StudyCase& c, const StudyOptions& options) {
                  whole(quantile(features, 0.95)),
                  whole(quantile(more_features, 0.5)),
                  whole(quantile(more_features, 0.95)),
+                 discrete.frames,
+                 continuous.frames,
                  discrete.per_frame(discrete.node_pairs),
                  discrete.per_frame(discrete.leaf_pairs),
                  continuous.per_frame(continuous.node_pairs),
                  continuous.per_frame(continuous.leaf_pairs),
                  discrete.per_frame(discrete.ns),
                  every_pair.per_frame(every_pair.ns),
+                 features_ns / std::max<double>(1, static_cast<double>(features.size())),
                  continuous.per_frame(continuous.ns)});
       progress.update(++done);
     }

@@ -4,6 +4,9 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <map>
+#include <optional>
+#include <tuple>
 
 #include "ch02_hull_hierarchy/pieces.hpp"
 #include "ch02_hull_hierarchy/study_mesh.hpp"
@@ -13,6 +16,8 @@
 namespace fc::hulls {
 namespace {
 
+constexpr int kFewPoints = 64;  // of an inner hull: more cost more than they gain (leaves.csv)
+constexpr int kAllPoints = 1'000'000;
 constexpr std::int64_t kMostPairs = 3'000'000;  // of a query: then it counts as given up
 
 // What a search was asked, query by query.
@@ -129,6 +134,7 @@ void study_ideas(const StudyCase& c, const StudyOptions& options) {
     Bound bound;
     Volume volume;
     Leaves leaves;
+    int most_points = kAllPoints;
   };
   constexpr auto kG = Order::global;
   constexpr auto kC = Order::controlled;
@@ -145,6 +151,7 @@ void study_ideas(const StudyCase& c, const StudyOptions& options) {
       {"points' own velocities", kB, Bound::points, Volume::box, kTriangles},
       {"hulls", kB, Bound::points, Volume::hull, kTriangles},
       {"pieces", kB, Bound::points, Volume::hull, Leaves::pieces},
+      {"hulls of 64 points", kB, Bound::points, Volume::hull, Leaves::pieces, kFewPoints},
       // The ancestors, and ours with one idea taken back.
       {"FAST's", kG, Bound::directional, Volume::hull, Leaves::pieces},
       {"C2A's", kC, Bound::directional, Volume::swept_sphere, kTriangles},
@@ -167,12 +174,14 @@ void study_ideas(const StudyCase& c, const StudyOptions& options) {
   reach.max_pairs = kMostPairs;
   Progress progress("ideas", static_cast<std::int64_t>(rows.size() * c.families.size()), options.quiet);
   std::int64_t done = 0;
+  std::map<std::tuple<Volume, Leaves, int>, HullModel> trees;  // each is made once
   for (const StudyCase::Family& family : c.families) {
-    if (family.motions.empty()) continue;
     const Tally lanes = by_lanes(c.model, family.motions, reach);
     for (const Row& row : rows) {
-      const HullModel hulls = build_study_model(c.model, c.pieces, {row.volume, row.leaves});
-      const Tally tally = by_study(hulls, family.motions, reach, row.order, row.bound);
+      const std::tuple kind{row.volume, row.leaves, row.most_points};
+      if (!trees.contains(kind))
+        trees.emplace(kind, build_study_model(c.model, c.pieces, {row.volume, row.leaves, row.most_points}));
+      const Tally tally = by_study(trees.at(kind), family.motions, reach, row.order, row.bound);
       check_agree(tally, lanes, 1e-2, row.label);
       table.row(with({family.name, row.label, name_of(row.order), name_of(row.bound), name_of(row.volume),
                       name_of(row.leaves), whole(quantile(tally.rounds, 0.5))},
@@ -201,7 +210,7 @@ void study_leaves(const StudyCase& c, const StudyOptions& options) {
     int most;
   };
   const std::vector<Row> rows = {{Volume::hull, 8},  {Volume::hull, 16},  {Volume::hull, 32},
-                                 {Volume::hull, 64}, {Volume::hull, 128}, {Volume::hull, 1'000'000},
+                                 {Volume::hull, 64}, {Volume::hull, 128}, {Volume::hull, kAllPoints},
                                  {Volume::box, 8}};
   Progress progress("leaves", static_cast<std::int64_t>(2 * rows.size()), options.quiet);
   std::int64_t done = 0;
@@ -211,7 +220,7 @@ void study_leaves(const StudyCase& c, const StudyOptions& options) {
       for (const StudyCase::Family& family : c.families) {
         const Tally tally = by_study(hulls, family.motions, reach, Order::best_first, Bound::points);
         table.row(with({family.name, name_of(row.volume), name_of(leaves),
-                        row.most < 1'000'000 ? Cell(std::int64_t{row.most}) : Cell(std::string("all")),
+                        row.most < kAllPoints ? Cell(std::int64_t{row.most}) : Cell(std::string("all")),
                         static_cast<std::int64_t>(hulls.pieces.start.size() - 1),
                         static_cast<std::int64_t>(hulls.tree.points.size())},
                        cells(tally)));
@@ -310,7 +319,7 @@ void study_triangles(const Shape& shape, const StudyOptions& options) {
     build_model(s);
     const std::int64_t boxes_ns = (std::chrono::steady_clock::now() - start) / std::chrono::nanoseconds(1);
     const auto start_hulls = std::chrono::steady_clock::now();
-    const HullModel hulls = build_hull_model(c.model);
+    const HullModel hulls = build_study_model(c.model, c.pieces, {Volume::hull, Leaves::pieces, kFewPoints});
     const std::int64_t hulls_ns =
         (std::chrono::steady_clock::now() - start_hulls) / std::chrono::nanoseconds(1);
     const auto write = [&](const std::string& family, const char* search, std::int64_t ns,
@@ -331,59 +340,78 @@ void study_triangles(const Shape& shape, const StudyOptions& options) {
   table.close();
 }
 
+namespace {
+
+// Two bodies that pass by each other and touch in passing.
+struct Grazing {
+  MotionPair motion;
+  Vec3 normal;  // from A to B, where they touch
+};
+
+// Makes a motion that misses graze: B is brought nearer along the nearest points' normal, again and again;
+// other points come nearer by no more than that, so that the two never overlap. The nearest that a pair comes
+// is found by halving: whether it comes to a gap is what a search answers.
+std::optional<Grazing> grazing(const StudyCase& c, MotionPair m) {
+  SearchMemory memory;
+  Reach reach;
+  const auto comes_to = [&](double gap) {
+    ReachOptions asked = reach_options(1e-11 * c.size);
+    asked.target = asked.start = gap;
+    const Reach r = first_reach(c.model, m.a, c.model, m.b, asked, memory);
+    if (r.status == Reach::Status::reached) reach = r;
+    return r.status == Reach::Status::reached;
+  };
+  double high = 0.5 * c.size;
+  if (comes_to(1e-3 * c.size) || !comes_to(high)) return std::nullopt;
+  for (int turn = 0; turn < 100; ++turn) {
+    double low = 0;
+    while (high - low > std::max(1e-10 * c.size, 1e-3 * low)) {
+      const double middle = 0.5 * (low + high);
+      (comes_to(middle) ? high : low) = middle;
+    }
+    // Past each other: neither from the start on nor at the end only.
+    if (reach.time < 0.1 || reach.time > 0.9) return std::nullopt;
+    if (high <= 1e-9 * c.size) return Grazing{m, reach.pair.gjk.normal};
+    m.b.position -= low * reach.pair.gjk.normal;
+    high =
+        std::max(high - low, 1e-9 * c.size) + 1e-3 * c.size;  // a new nearest pair may be as near as before
+    if (!comes_to(high)) high = 0.5 * c.size;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
 void study_approach(const StudyCase& c, const StudyOptions& options) {
   TableWriter table(options.out / "approach.csv",
                     with({{"search", ""}, {"answer", ""}, {"margin", "1"}}, kTallyColumns));
-  const ReachOptions asked = reach_options(kStudyTolerance * c.size);
-  const HullModel hulls = build_study_model(c.model, c.pieces, {Volume::hull, Leaves::pieces});
-  const auto at_target = [&](double target) {
-    ReachOptions reach = asked;
-    reach.target = target;
-    reach.start = target;
-    reach.max_pairs = kMostPairs;
-    return reach;
-  };
-  // The nearest that each pair comes, by halving: whether the pair comes to a gap is what a search answers.
-  struct Nearest {
-    MotionPair motion;
-    double gap;
-  };
-  std::vector<Nearest> misses;
-  SearchMemory memory;
+  ReachOptions reach = reach_options(1e-8 * c.size);  // finer than any margin
+  reach.max_pairs = kMostPairs;
+  const HullModel hulls = build_study_model(c.model, c.pieces, {Volume::hull, Leaves::pieces, kFewPoints});
+  std::vector<Grazing> all;
+  Progress progress("motions", static_cast<std::int64_t>(c.families[0].motions.size()), options.quiet);
+  std::int64_t done = 0;
   for (const MotionPair& m : c.families[0].motions) {
-    const auto reaches = [&](double gap) {
-      ReachOptions reach = at_target(gap);
-      reach.slack = 1e-10 * c.size;
-      return first_reach(c.model, m.a, c.model, m.b, reach, memory).status == Reach::Status::reached;
-    };
-    double low = 1e-3 * c.size, high = 0.5 * c.size;
-    if (reaches(low) || !reaches(high)) continue;
-    const double first =
-        model_distance(c.model, c.model, ca::PairPose(m.a, m.b, 0), kStudyTolerance * c.size).lower;
-    const double last =
-        model_distance(c.model, c.model, ca::PairPose(m.a, m.b, 1), kStudyTolerance * c.size).lower;
-    while (high - low > 1e-9 * c.size) {
-      const double middle = 0.5 * (low + high);
-      (reaches(middle) ? high : low) = middle;
-    }
-    // Past each other, not still approaching at the end.
-    if (std::min(first, last) > high + 0.15 * c.size) misses.push_back({m, high});
+    if (const auto g = grazing(c, m)) all.push_back(*g);
+    progress.update(++done);
   }
-  if (misses.empty()) throw NumericalFailure("approach: none of these motions passes by; ask for more");
-  const std::array margins = {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7};
+  if (all.empty()) throw NumericalFailure("approach: none of these motions passes by; ask for more");
+  SearchMemory memory;
   for (const bool hit : {true, false})
-    for (const double margin : margins) {
-      Tally lanes, fast;
-      for (const Nearest& n : misses) {
-        const double gap = n.gap + (hit ? 1 : -1) * margin * c.size;
-        const ReachOptions reach = at_target(gap);
-        lanes.ask([&] { return first_reach(c.model, n.motion.a, c.model, n.motion.b, reach, memory); });
+    for (const double margin : {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7}) {  // of the size
+      Tally lanes, best, fast;
+      for (const Grazing& g : all) {
+        MotionPair m = g.motion;
+        m.b.position += (hit ? -1 : 1) * margin * c.size * g.normal;
+        lanes.ask([&] { return first_reach(c.model, m.a, c.model, m.b, reach, memory); });
+        best.ask([&] { return study_reach(hulls, m.a, hulls, m.b, reach, {}); });
         fast.ask([&] {
-          return study_reach(hulls, n.motion.a, hulls, n.motion.b, reach,
-                             {Order::global, Bound::directional});
+          return study_reach(hulls, m.a, hulls, m.b, reach, {Order::global, Bound::directional});
         });
       }
+      check_agree(best, lanes, 1e-2, "approach");
       table.row(with({"boxes in lanes", hit ? "hit" : "miss", margin}, cells(lanes)));
+      table.row(with({"hulls", hit ? "hit" : "miss", margin}, cells(best)));
       table.row(with({"FAST's", hit ? "hit" : "miss", margin}, cells(fast)));
     }
   table.close();
@@ -406,7 +434,7 @@ void study_pictures(const StudyCase& c, const StudyOptions& options) {
   }
   table.close();
 
-  // The first hit of the far motions, as three searches see it.
+  // The first of the far motions that hits after a while, as three searches see it.
   ReachOptions reach = reach_options(kStudyTolerance * c.size);
   reach.max_pairs = kMostPairs;
   TableWriter visits(options.out / "visits.csv", {{"search", ""},
@@ -417,7 +445,8 @@ void study_pictures(const StudyCase& c, const StudyOptions& options) {
                                                   {"leaves", ""},
                                                   {"fate", ""}});
   for (const MotionPair& m : c.families[0].motions) {
-    if (first_reach(c.model, m.a, c.model, m.b, reach).status != Reach::Status::reached) continue;
+    const Reach hit = first_reach(c.model, m.a, c.model, m.b, reach);
+    if (hit.status != Reach::Status::reached || hit.time < 0.3) continue;
     for (const auto& [name, order, bound] : {std::tuple{"FAST's", Order::global, Bound::directional},
                                              std::tuple{"depth first", Order::depth_first, Bound::points},
                                              std::tuple{"ours", Order::best_first, Bound::points}}) {
