@@ -34,7 +34,8 @@ def draw(run: Path) -> plt.Figure:
         axes.set_xlabel("tolerance / size of the model")
     for axes in (left, middle, right):
         axes.invert_xaxis()
-        axes.legend(fontsize=7)
+        axes.legend(fontsize=7, ncols=2 if axes is right else 1)
+    right.set_ylim(3, None)
     return figure
 
 

@@ -32,7 +32,7 @@ def draw(run: Path, times: str | None = None) -> plt.Figure:
         curve(cost, table, table["continuous_node_pairs"] + table["continuous_leaf_pairs"], family, BLUE, "continuous")
     missed.set(title="Contacts that checks miss", ylabel="missed [%]", ylim=(-2, 100))
     missed.axhline(0, color=BLUE, lw=1.6, label="continuous")
-    late.set(title="How deep bodies are when it is noticed", ylabel="overlap / size of the model", yscale="log")
+    late.set(title="How deep the bodies are by then", ylabel="overlap / size of the model", yscale="log")
     contacts.set(title="What the solver gets", ylabel="contacts, median", yscale="log")
     cost.set(title="Cost: operations", ylabel="pairs of nodes and leaves per frame", yscale="log")
     if times:
@@ -48,6 +48,7 @@ def draw(run: Path, times: str | None = None) -> plt.Figure:
         axes.set_xticks([1, 4, 16, 64, 256], ["1", "4", "16", "64", "256"])
         axes.set_xlabel("frames that the second is cut into")
         axes.legend(fontsize=7)
+    contacts.legend(fontsize=7, loc="lower left", bbox_to_anchor=(0, 0.08))
     return figure
 
 

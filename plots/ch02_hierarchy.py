@@ -63,11 +63,14 @@ def draw_visits(run: Path) -> plt.Figure:
         for fate, (colour, label) in FATES.items():
             rows = (searches == search) & (fates == fate)
             star = fate == "reached"
+            if not rows.any():
+                continue
             axes.plot(left[rows], table["radii"][rows], "*" if star else "o", ms=12 if star else 3.2, color=colour,
                       alpha=1 if star else 0.7, mew=0, label=f"{label} ({rows.sum()})")
-        axes.set(title=f"{title}: {(searches == search).sum()} pairs", xscale="log", yscale="log",
+        axes.set(title=f"{title}: {(searches == search).sum():,} pairs", xscale="log", yscale="log",
                  xlabel="time left until the contact [s]", ylabel="radii of both nodes together [m]")
-        axes.legend(fontsize=7, loc="lower left")
+    panels[0].legend(fontsize=7, loc="lower right")
+    panels[1].legend(fontsize=7, loc="lower left")
     panels[0].set_xlim(2, 5e-10)
     panels[0].set_xticks([1, 1e-2, 1e-4, 1e-6, 1e-9], ["1", "0.01", "$10^{-4}$", "$10^{-6}$", "0"])
     return figure

@@ -45,7 +45,7 @@ def bars(axes: plt.Axes, table: Table, rows: dict[str, str], title: str) -> None
         axes.barh(y, median[places], 0.34, color=colour, label=label)
         axes.hlines(y, median[places], high[places], color=colour, lw=1)
         for at, i in zip(y, places):
-            axes.text(high[i] * 1.12, at, f"{int(median[i]):,}", va="center", fontsize=6.5, color="#555555")
+            axes.text(median[i] * 0.93, at, f"{int(median[i]):,}", va="center", ha="right", fontsize=6.5, color="white" if colour == BLUE else "black")
     axes.set_yticks(range(len(rows)), rows.values(), fontsize=8)
     axes.invert_yaxis()
     axes.grid(False, axis="y")

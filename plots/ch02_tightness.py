@@ -18,22 +18,23 @@ def draw(run: Path) -> plt.Figure:
     tightness, leaves = Table(run / "tightness.csv"), Table(run / "leaves.csv")
     figure, (left, middle, right) = plt.subplots(1, 3, figsize=(11.5, 3.5))
     names = np.array(tightness.text("volume"))
-    for name, (colour, line) in VOLUMES.items():
-        rows = names == name
-        left.plot(tightness["nodes"][rows], tightness["overhang"][rows], line, ms=3.5, lw=1.3, color=colour, label=name)
-    left.set(title="How loose a volume is", xscale="log", xlabel="nodes of the level (leaves excepted)",
-             ylabel="mean overhang / node's radius", ylim=(0, None))
-    left.legend(fontsize=7, ncols=2)
+    for axes, column, title in ((left, "overhang", "In all directions"), (middle, "across", "Across the surface")):
+        for name, (colour, line) in VOLUMES.items():
+            rows = names == name
+            axes.plot(tightness["level"][rows], tightness[column][rows], line, ms=3.5, lw=1.3, color=colour, label=name)
+        axes.set(title=f"How loose: {title.lower()}", xlabel="level (0: the root; leaves excepted)",
+                 ylabel="mean overhang / node's radius", ylim=(0, None),
+                 xticks=range(0, int(tightness["level"].max()) + 1, 2))
+    middle.legend(fontsize=7)
     motions, volumes, kinds, most = (np.array(leaves.text(c)) for c in ("motions", "volume", "leaves", "most_points"))
-    for axes, column, title in ((middle, "node_pairs", "Hulls of few points"), (right, "leaf_pairs", "Leaves")):
-        for kind, colour in (("pieces", BLUE), ("triangles", ORANGE)):
-            for family, line in (("far", "o-"), ("close", "s--")):
-                rows = (motions == family) & (kinds == kind) & (volumes == "hull")
-                axes.plot(range(rows.sum()), leaves[column][rows], line, ms=4, lw=1.3, color=colour, label=f"{kind}, {family}")
-        axes.set_xticks(range(rows.sum()), most[rows])
-        axes.set(title=title, xlabel="points that an inner hull may have", ylim=(0, None),
-                 ylabel=f"pairs of {'nodes' if column == 'node_pairs' else 'leaves'} per query, median")
-    middle.legend(title="leaves, motions", title_fontsize=7.5, fontsize=7)
+    for kind, colour in (("pieces", BLUE), ("triangles", ORANGE)):
+        for family, line in (("far", "o-"), ("close", "s--")):
+            rows = (motions == family) & (kinds == kind) & (volumes == "hull")
+            pairs = (leaves["node_pairs"] + leaves["leaf_pairs"])[rows]
+            right.semilogy(range(rows.sum()), pairs, line, ms=4, lw=1.3, color=colour, label=f"{kind}, {family}")
+    right.set_xticks(range(rows.sum()), most[rows])
+    right.set(title="Hulls of few points", xlabel="points that an inner hull may have", ylabel="pairs per query, median")
+    right.legend(title="leaves, motions", title_fontsize=7.5, fontsize=7)
     return figure
 
 

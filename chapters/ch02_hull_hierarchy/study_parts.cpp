@@ -246,7 +246,8 @@ void study_tightness(const StudyCase& c, const StudyOptions& options) {
                                                     {"nodes", ""},
                                                     {"radius", "m"},
                                                     {"overhang", "1"},
-                                                    {"overhang_p95", "1"}});
+                                                    {"overhang_p95", "1"},
+                                                    {"across", "1"}});
   const HullModel hulls = build_study_model(c.model, c.pieces, {Volume::hull, Leaves::triangles});
   std::vector<std::vector<int>> levels{{0}};
   while (!levels.back().empty()) {
@@ -266,16 +267,18 @@ void study_tightness(const StudyCase& c, const StudyOptions& options) {
       const std::vector<int>& nodes = levels[level];
       const int count = std::min(kNodes, static_cast<int>(nodes.size()));
       std::vector<double> all;
-      double radius = 0, sum = 0;
+      double radius = 0, sum = 0, across = 0;
       for (int k = 0; k < count; ++k) {
         const int n = nodes[k * nodes.size() / count];
         const double r = hulls.tree.nodes[n].radius;
         radius += r / count;
+        const Vec3 thin = thin_direction(hulls.tree.hull(hulls.tree.nodes[n]));
+        across += 0.5 / count * (overhang(volumes, hulls, n, thin) + overhang(volumes, hulls, n, -thin)) / r;
         for (const Vec3& d : directions) all.push_back(overhang(volumes, hulls, n, d) / r);
       }
       for (const double x : all) sum += x / static_cast<double>(all.size());
       table.row({row.name, static_cast<std::int64_t>(level), static_cast<std::int64_t>(nodes.size()), radius,
-                 sum, quantile(all, 0.95)});
+                 sum, quantile(all, 0.95), across});
     }
   }
   table.close();

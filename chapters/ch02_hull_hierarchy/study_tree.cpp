@@ -142,6 +142,10 @@ double overhang(const HullModel& volumes, const HullModel& hulls, int node, cons
   return reach(volumes) - reach(hulls);
 }
 
+Vec3 thin_direction(std::span<const Vec3> points) {
+  return principal_axes(points).col(0);
+}
+
 std::vector<Vec3> even_directions(int count) {
   std::vector<Vec3> directions;
   const double turn = std::numbers::pi * (3 - std::sqrt(5.0));  // the golden angle

@@ -33,6 +33,9 @@ HullModel build_study_model(const Model& model, const Lists& pieces, const Study
 // Along a unit direction: how far the volume reaches beyond what it holds (m, >= 0), whatever is below.
 double overhang(const HullModel& volumes, const HullModel& hulls, int node, const Vec3& direction);
 
+// The principal direction along which points extend least: across a patch of a surface.
+Vec3 thin_direction(std::span<const Vec3> points);
+
 // `count` directions, evenly spread over the sphere (a spiral).
 std::vector<Vec3> even_directions(int count);
 

@@ -1,6 +1,11 @@
 // The study's search, with every combination of order, bound, volume and leaves: never late, and where
 // first_reach is.
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 
 #include "ch02_hull_hierarchy/pieces.hpp"
 #include "ch02_hull_hierarchy/study_mesh.hpp"
@@ -147,6 +152,38 @@ TEST(StudyMesh, DecimationStaysClosed) {
     EXPECT_LE(coarse.mesh.triangles.size(), target + 1);
     EXPECT_GE(coarse.mesh.triangles.size(), target / 2);
   }
+}
+
+// The program: what it does with wrong words, and that a part writes its table.
+int run_study(const std::string& arguments) {
+  const int status = std::system((FC_BIN_DIR "/ch02_study " + arguments + " > /dev/null 2>&1").c_str());
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+TEST(StudyProgram, WritesTablesAndRefusesBadInput) {
+  const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "ch02_study";
+  std::filesystem::create_directories(folder);
+  std::ofstream obj(folder / "ring.obj");
+  const TriangleMesh mesh = test::ring(1, 0.4, 24, 16);
+  for (const Vec3& v : mesh.vertices) obj << "v " << v.x() << " " << v.y() << " " << v.z() << "\n";
+  for (const auto& [i, j, k] : mesh.triangles) obj << "f " << i + 1 << " " << j + 1 << " " << k + 1 << "\n";
+  obj.close();
+  const std::string out = " --out " + folder.string(), ring = " --mesh " + (folder / "ring.obj").string();
+  EXPECT_EQ(run_study("--help"), 0);
+  EXPECT_EQ(run_study("--part nothing" + out), 2);
+  EXPECT_EQ(run_study("--part ideas --mesh nowhere.obj" + out), 2);
+  for (const std::string part :
+       {"ideas", "leaves", "tightness", "tolerance", "triangles", "approach", "discrete"}) {
+    EXPECT_EQ(run_study("--part " + part + " --far 20 --close 3 --quiet" + ring + out), 0) << part;
+    std::ifstream table(folder / (part + ".csv"));
+    std::string line;
+    int rows = -1;
+    while (std::getline(table, line)) ++rows;
+    EXPECT_GE(rows, 3) << part;
+  }
+  EXPECT_EQ(run_study("--part pictures --far 20 --close 1 --quiet" + ring + out), 0);
+  EXPECT_TRUE(std::filesystem::exists(folder / "hulls.csv") &&
+              std::filesystem::exists(folder / "visits.csv"));
 }
 
 }  // namespace
