@@ -14,7 +14,8 @@ using namespace fc::test;
 
 TEST(MeshAllocation, ASearchTakesNothingFromTheHeap) {
   Random random(23);
-  const Model a = model_of(bumpy_ball(random, 14)), b = model_of(ring(1, 0.3, 24, 9)), c = model_of(capsule(0.2, 1));
+  const Model a = model_of(bumpy_ball(random, 14)), b = model_of(ring(1, 0.3, 24, 9)),
+              c = model_of(capsule(0.2, 1));
   SearchMemory memory;
   ca::AdvanceResult result;
   ca::AdvanceOptions options;
@@ -28,7 +29,9 @@ TEST(MeshAllocation, ASearchTakesNothingFromTheHeap) {
     for (const bool warm : {false, true}) {
       const std::int64_t before = allocations();
       advance(a, ma, other, mb, options, memory, result);
-      if (warm) EXPECT_EQ(allocations() - before, 0) << "query " << round;
+      if (warm) {
+        EXPECT_EQ(allocations() - before, 0) << "query " << round;
+      }
     }
     hits += result.status == ca::Status::contact;
   }
