@@ -110,22 +110,32 @@ std::vector<Triangle> merge_equal_positions(const TriangleMesh& mesh) {
   return triangles;
 }
 
-// Removes triangles whose three corners an earlier one has already; returns how many.
-int remove_duplicates(std::vector<Triangle>& triangles) {
+// Whether two triangles with the same corners go round the same way.
+bool same_way(const Triangle& t, const Triangle& u) {
+  const auto at = std::find(u.begin(), u.end(), t[0]) - u.begin();
+  return u[(at + 1) % 3] == t[1];
+}
+
+// Removes triangles whose three corners an earlier one has already, round the same way or, if `opposed`,
+// either way; returns how many.
+int remove_duplicates(std::vector<Triangle>& triangles, bool opposed) {
   struct Key {
     Triangle corners;  // ascending
+    bool backward;
     int index;
     auto operator<=>(const Key&) const = default;
   };
   std::vector<Key> keys(triangles.size());
   for (std::size_t i = 0; i < triangles.size(); ++i) {
-    keys[i] = {triangles[i], static_cast<int>(i)};
-    std::sort(keys[i].corners.begin(), keys[i].corners.end());
+    Triangle ascending = triangles[i];
+    std::sort(ascending.begin(), ascending.end());
+    keys[i] = {ascending, !opposed && !same_way(ascending, triangles[i]), static_cast<int>(i)};
   }
   std::sort(keys.begin(), keys.end());
   std::vector<bool> remove(triangles.size(), false);
   for (std::size_t k = 1; k < keys.size(); ++k)
-    remove[keys[k].index] = keys[k].corners == keys[k - 1].corners;
+    remove[keys[k].index] =
+        keys[k].corners == keys[k - 1].corners && keys[k].backward == keys[k - 1].backward;
   std::size_t i = 0;
   return static_cast<int>(std::erase_if(triangles, [&](const Triangle&) { return remove[i++]; }));
 }
@@ -291,7 +301,10 @@ PreparedMesh prepare_mesh(const TriangleMesh& mesh) {
   MeshReport& report = result.report;
   out.triangles = merge_equal_positions(mesh);
   report.degenerate_triangles = static_cast<int>(std::erase_if(out.triangles, two_equal_corners));
-  report.duplicate_triangles = remove_duplicates(out.triangles);
+  report.duplicate_triangles = remove_duplicates(out.triangles, false);
+  // Both sides of a wall between two parts of a solid stay; a sheet with two sides is one sheet.
+  if (!examine(out.triangles, out.vertices.size()).closed)
+    report.duplicate_triangles += remove_duplicates(out.triangles, true);
 
   // A triangle on one line has no area, but it may join a long edge to two short ones: it still counts for
   // the edges.

@@ -22,12 +22,14 @@ struct MeshReport {
   int triangles = 0;             // after degenerate and duplicate ones were removed
   int merged_vertices = 0;       // equal positions, or never used
   int degenerate_triangles = 0;  // zero area (the rule stands at prepare_mesh); removed
-  int duplicate_triangles = 0;   // the same three corners as an earlier one, in either orientation; removed
-  int boundary_edges = 0;        // edges of one triangle
-  int holes = 0;                 // closed loops (connected sets) of boundary edges
-  int nonmanifold_edges = 0;     // edges of three or more triangles
-  int flipped_edges = 0;         // edges whose two triangles disagree in orientation
-  int flipped_triangles = 0;     // that face against most of those they are joined to over edges of two
+  int duplicate_triangles =
+      0;                   // the same three corners as an earlier one; removed (in the other orientation: not
+                           // from a closed mesh, where it may be the other side of an inner wall)
+  int boundary_edges = 0;  // edges of one triangle
+  int holes = 0;           // closed loops (connected sets) of boundary edges
+  int nonmanifold_edges = 0;    // edges of three or more triangles
+  int flipped_edges = 0;        // edges whose two triangles disagree in orientation
+  int flipped_triangles = 0;    // that face against most of those they are joined to over edges of two
   int one_sided = 0;            // such sets that cannot face one way, like a Moebius band: none counted above
   int components = 0;           // sets of triangles connected over shared edges
   bool inside_out = false;      // a component faced inwards without being a cavity, and was reversed

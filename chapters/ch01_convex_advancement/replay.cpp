@@ -242,6 +242,17 @@ ReplayProof prove_above(const ReplayQuery& query, const LongVec& n, Long t, Long
   return proof;
 }
 
+std::string replay_row(const ReplayQuery& query, const CertificateRow& row) {
+  const auto prove = [&](const LongVec& n, Long t, Long gap, Long speed, Long duration) {
+    return prove_above(query, n, t, gap, speed, duration);
+  };
+  return check_row(prove, row, row.t);
+}
+
+std::string replay_answer(double interval, const ReplayAnswer& answer, bool has_rows) {
+  return check_answer(interval, answer, has_rows);
+}
+
 std::vector<Refusal> replay(const ReplayQuery& query, const ReplayAnswer& answer,
                             const std::vector<CertificateRow>& rows) {
   if (query.motion_a.free || query.motion_b.free)

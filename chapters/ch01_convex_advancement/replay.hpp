@@ -67,6 +67,11 @@ struct Refusal {
   std::string what;
 };
 
+// What is wrong with a row on its own, whenever it starts; or "".
+std::string replay_row(const ReplayQuery& query, const CertificateRow& row);
+// What is wrong with an answer, whatever its rows say; or "".
+std::string replay_answer(double interval, const ReplayAnswer& answer, bool has_rows);
+
 // Everything that is wrong with an answer and its certificate; empty if each row is true and all of them
 // together prove the pair clear from 0 to toc. That it is within the tolerance at toc is not the
 // certificate's business: features.csv has two points of the surfaces for that.

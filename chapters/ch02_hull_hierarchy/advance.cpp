@@ -1,6 +1,7 @@
 #include "ch02_hull_hierarchy/advance.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 #include "ch02_hull_hierarchy/features.hpp"
@@ -42,6 +43,10 @@ void advance(const Model& a, const ca::Motion& motion_a, const Model& b, const c
     result.gap_lower = std::min(reach.pair.gjk.lower, search.target);
     result.gap_upper = reach.pair.gjk.upper;
     result.status = result.gap_upper <= tolerance ? ca::Status::contact : ca::Status::unresolved;
+  } else if (reach.status == Reach::Status::clear && !inside && !options.end_distance) {
+    result.gap_lower = search.target;
+    result.gap_upper = std::numeric_limits<double>::infinity();
+    result.status = ca::Status::separated;
   } else {
     const ModelDistance d = model_distance(a, b, pose, tolerance);
     result.node_pairs += d.node_pairs;
@@ -53,6 +58,7 @@ void advance(const Model& a, const ca::Motion& motion_a, const Model& b, const c
                     : reach.status == Reach::Status::clear       ? ca::Status::separated
                                                                  : ca::Status::unresolved;
   }
+  if (!options.features) return;
   if (result.status == ca::Status::contact || result.status == ca::Status::touching_at_start)
     result.features = contact_features(a, b, pose, motion_a.position_at(result.toc), tolerance);
 }

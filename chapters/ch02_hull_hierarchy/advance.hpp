@@ -41,6 +41,10 @@ struct Waiting {
 // What a search needs memory for. Kept from query to query it allocates nothing.
 struct SearchMemory {
   std::vector<Waiting> queue;
+  // Temporal coherence, for queries of the same two models one after the other: the nodes of the leaves that
+  // met last.
+  bool coherent = false;
+  NodeId last_a = -1, last_b = -1;
   ca::AdvanceResult* certificate = nullptr;  // the rows of every advance go there, if anywhere
 };
 

@@ -119,6 +119,7 @@ struct FourPairs {
                 abs(dot(n, boxes.axis[1])) * boxes.half.y - abs(dot(n, third)) * boxes.half.z -
                 abs(dot(n, other.axis[0])) * other.half[0] - abs(dot(n, other.axis[1])) * other.half[1] -
                 abs(dot(n, other.axis[2])) * other.half[2] - rounding;
+    // ANCHOR: lanes
     const Lanes room = steps.gap - limits.target;
     const Lanes3 turn = cross(n, spin), other_turn = cross(n, other_spin);
     const Lanes rate = norm(turn) + rate_noise, other_rate = norm(other_turn) + other_rate_noise;
@@ -133,6 +134,7 @@ struct FourPairs {
         straight + pull * limits.remaining + rate * view.reach + other_rate * view.other_reach;
     const Lanes linear = whole > 0 ? room / whole : all_lanes(kInfinity);
     const Lanes time = max(nearby, linear) * (1 - kStepRounding);
+    // ANCHOR_END: lanes
     steps.time = steps.gap > limits.keep ? time : all_lanes(0);
     return steps;
   }

@@ -21,6 +21,23 @@ Lists lists_of(int count, const std::vector<std::array<int, 2>>& pairs) {  // (l
   return lists;
 }
 
+Vertex kind_of(const FeatureMesh& mesh, int v) {
+  std::array<Vec3, 2> along;
+  int sharp = 0;
+  for (int k = mesh.vertex_edges.start[v]; k < mesh.vertex_edges.start[v + 1]; ++k) {
+    const Edge& edge = mesh.edges[mesh.vertex_edges.items[k]];
+    if (edge.flat) continue;
+    const int other = edge.vertex[0] == v ? edge.vertex[1] : edge.vertex[0];
+    if (sharp < 2) along[sharp] = (mesh.vertices[other] - mesh.vertices[v]).normalized();
+    ++sharp;
+  }
+  const bool isolated = mesh.vertex_edges.start[v] == mesh.vertex_edges.start[v + 1];
+  if (sharp == 0 && !isolated) return Vertex::on_face;
+  const bool straight =
+      sharp == 2 && along[0].dot(along[1]) < 0 && along[0].cross(along[1]).norm() < kFlatAngle;
+  return straight ? Vertex::on_edge : Vertex::corner;
+}
+
 }  // namespace
 
 Vec3 FeatureMesh::inward(int triangle, int edge) const {
@@ -81,6 +98,8 @@ FeatureMesh build_feature_mesh(const TriangleMesh& core, bool solid) {
     const Vec3& m = mesh.normals[mesh.edge_triangles.items[first + 1]];
     mesh.edges[e].flat = n.cross(m).norm() < kFlatAngle && n.dot(m) > 0;
   }
+  for (int v = 0; v < static_cast<int>(mesh.vertices.size()); ++v)
+    mesh.vertex_kind.push_back(kind_of(mesh, v));
   return mesh;
 }
 

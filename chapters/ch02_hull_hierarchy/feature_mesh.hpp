@@ -14,6 +14,10 @@ struct Edge {
   bool flat = false;            // between two coplanar triangles: a line drawn on a face, no feature
 };
 
+// A vertex all of whose edges are flat is drawn on a face; one with two edges that are not, in one line, on
+// an edge.
+enum class Vertex : char { corner, on_edge, on_face };
+
 // Lists of lists, one after another: list i is items[start[i]] .. items[start[i + 1]].
 struct Lists {
   std::vector<int> start{0};
@@ -25,6 +29,7 @@ struct FeatureMesh {
   std::vector<std::array<int, 3>> triangles;  // outward, if the shape is solid
   std::vector<Vec3> normals;                  // unit, per triangle
   std::vector<Edge> edges;
+  std::vector<Vertex> vertex_kind;
   Lists edge_triangles;  // the triangles at each edge
   Lists vertex_edges;    // the edges at each vertex
   Lists triangle_edges;  // the three edges of each triangle

@@ -42,7 +42,7 @@ struct Placed {
     edges.clear();
     triangles.clear();
     const auto take_vertex = [&](int v) {
-      if (height(v) >= low) vertices.push_back(v);
+      if (height(v) >= low && mesh.vertex_kind[v] != Vertex::on_face) vertices.push_back(v);
     };
     const auto take_edge = [&](int e) {
       const auto& [i, j] = mesh.edges[e].vertex;
@@ -73,6 +73,17 @@ struct Placed {
     for_items(model.mesh.edge_triangles, edge,
               [&](int t) { inside = inside && n.dot(turned(model.mesh.inward(t, edge))) <= kConeSlack; });
     return inside;
+  }
+  bool on_edge(int v) const { return model.mesh.vertex_kind[v] == Vertex::on_edge; }
+  // Along the edge that a vertex is drawn on.
+  Vec3 drawn_on(int v) const {
+    Vec3 along = Vec3::Zero();
+    for_items(model.mesh.vertex_edges, v, [&](int e) {
+      const auto& [i, j] = model.mesh.edges[e].vertex;
+      if (!model.mesh.edges[e].flat)
+        along = turned(model.mesh.vertices[j] - model.mesh.vertices[i]).normalized();
+    });
+    return along;
   }
   bool vertex_cone(int v, const Vec3& n) const {
     bool inside = true;
@@ -112,7 +123,10 @@ struct Collector {
   }
 
   // A vertex of one body over a face of the other. `sign`: +1 if the vertex is A's.
+  // One that is drawn on an edge tells nothing that the edge's end, or its crossing with the face's border,
+  // does not.
   void vertex_face(const Placed& with_vertex, int v, const Placed& with_face, int t, double sign) {
+    if (with_vertex.model.mesh.vertex_kind[v] == Vertex::on_edge) return;
     const Vec3 x = with_vertex.vertex(v);
     const auto& corner = with_face.model.mesh.triangles[t];
     Vec3 outward = with_face.turned(with_face.model.mesh.normals[t]);
@@ -157,6 +171,15 @@ struct Collector {
     add(x, y, n, FeatureKind::edge, e, FeatureKind::edge, f);
   }
 
+  // Where edges cross at a vertex that is drawn on one of them: their cross product, which is exact, for `n`
+  // (to its side). False if they are parallel: then their ends tell.
+  static bool edges_normal(const Vec3& u, const Vec3& v, Vec3& n) {
+    const Vec3 cross = u.cross(v);
+    if (cross.norm() <= kParallelEdges * u.norm() * v.norm()) return false;
+    n = cross.normalized() * (cross.dot(n) < 0 ? -1 : 1);
+    return true;
+  }
+
   // A vertex nearest to the inside of an edge, or to a vertex: the normal joins them. `v` is with_vertex's.
   void vertex_edge(const Placed& with_vertex, int v, const Placed& with_edge, int e, double sign) {
     const auto& [i, j] = with_edge.model.mesh.edges[e].vertex;
@@ -166,7 +189,8 @@ struct Collector {
     const Vec3 foot = p + s * u;
     const double apart = (foot - x).norm();
     if (std::abs(apart - radii) > tolerance || !has_direction(apart)) return;
-    const Vec3 n = sign * (foot - x) / apart;
+    Vec3 n = sign * (foot - x) / apart;
+    if (with_vertex.on_edge(v) && !edges_normal(with_vertex.drawn_on(v), u, n)) return;
     const Vec3 strict = sign * n;  // from the vertex's body to the edge's
     if (n.dot(toward) <= 0) return;
     if (!with_vertex.vertex_cone(v, strict) || !with_edge.edge_cone(e, -strict)) return;
@@ -179,7 +203,8 @@ struct Collector {
     const Vec3 x = a.vertex(v), y = b.vertex(w);
     const double apart = (y - x).norm();
     if (std::abs(apart - radii) > tolerance || !has_direction(apart)) return;
-    const Vec3 n = (y - x) / apart;
+    Vec3 n = (y - x) / apart;
+    if (a.on_edge(v) && b.on_edge(w) && !edges_normal(a.drawn_on(v), b.drawn_on(w), n)) return;
     if (n.dot(toward) <= 0 || !a.vertex_cone(v, n) || !b.vertex_cone(w, -n)) return;
     add(x, y, n, FeatureKind::vertex, v, FeatureKind::vertex, w);
   }
@@ -204,12 +229,47 @@ struct Collector {
   }
 };
 
-FeaturePair witness(const LeafPair& pair, const Mat3& to_a) {  // in A's axes, like the others
+// The feature that GJK's simplex spans on one side: a vertex, an edge or a face of the leaf.
+void name_feature(const Model& model, int leaf, const std::array<ca::SupportPoint, 4>& simplex, int count,
+                  FeatureKind& kind, int& id) {
+  const FeatureMesh& mesh = model.mesh;
+  const int triangle = model.boxes.leaf_item[leaf];
+  std::vector<int> corners;
+  for (int k = 0; k < count; ++k)
+    corners.push_back(triangle >= 0 ? mesh.triangles[triangle][simplex[k].index] : simplex[k].index);
+  std::sort(corners.begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  const auto has_all = [&](const auto& of) {
+    return std::all_of(corners.begin(), corners.end(),
+                       [&](int v) { return std::find(of.begin(), of.end(), v) != of.end(); });
+  };
+  kind = FeatureKind::vertex;
+  id = corners.empty() ? 0 : corners[0];
+  if (corners.size() <= 1) return;
+  for (int k = mesh.vertex_edges.start[id]; k < mesh.vertex_edges.start[id + 1]; ++k)
+    if (corners.size() == 2 && has_all(mesh.edges[mesh.vertex_edges.items[k]].vertex)) {
+      kind = FeatureKind::edge;
+      id = mesh.vertex_edges.items[k];
+      return;
+    }
+  for (int t = std::max(triangle, 0); t < static_cast<int>(mesh.triangles.size()); ++t)
+    if (t == triangle ||
+        has_all(mesh.triangles[t])) {  // a diagonal of a face lies on one of its triangles, or on none
+      kind = FeatureKind::face;
+      id = t;
+      return;
+    }
+}
+
+FeaturePair witness(const Model& a, const Model& b, const LeafPair& pair,
+                    const Mat3& to_a) {  // in A's axes, like the others
   FeaturePair w;
   w.point_a = to_a * pair.gjk.point_a;
   w.point_b = to_a * pair.gjk.point_b;
   w.normal = to_a * pair.gjk.normal;
   w.gap = std::max(pair.gjk.lower, std::min(pair.gjk.upper, w.normal.dot(w.point_b - w.point_a)));
+  name_feature(a, pair.a, pair.gjk.cache.a, pair.gjk.cache.count, w.kind_a, w.id_a);
+  name_feature(b, pair.b, pair.gjk.cache.b, pair.gjk.cache.count, w.kind_b, w.id_b);
   return w;
 }
 
@@ -259,7 +319,7 @@ std::vector<ca::FeaturePair> contact_features(const Model& a, const Model& b, co
   if (nearest != nullptr) {
     // The plane at which advancement stopped must be among the contacts, or the impulse would not stop the
     // approach.
-    const FeaturePair w = witness(*nearest, to_a);
+    const FeaturePair w = witness(a, b, *nearest, to_a);
     const bool covered = std::any_of(collector.found.begin(), collector.found.end(),
                                      [&](const FeaturePair& f) { return f.normal.dot(w.normal) > 1 - 1e-6; });
     if (!covered) collector.found.push_back(w);

@@ -16,6 +16,7 @@ namespace {
 // same elsewhere.
 constexpr float kFarApart = 0.1f;
 
+constexpr int kLooksAtLast = 8;  // two leaves that meet do so after two or three advances, as a rule
 constexpr double kClear = std::numeric_limits<double>::infinity();
 
 // Of a step in double precision: its own rounding.
@@ -43,6 +44,7 @@ struct Search {
   StepLimits limits{};
   ca::PairPose pose{motion_a, motion_b, 0};
   double pose_time = -1;
+  double horizon = kClear;  // s, nothing that is clear until here is of interest
   PairViews views{};
 
   void look_from(double t) {
@@ -64,8 +66,9 @@ struct Search {
     if (memory.certificate != nullptr) {
       const BoxQuad& quad_a = a.boxes.quads[node_a >> 2];
       const BoxQuad& quad_b = b.boxes.quads[node_b >> 2];
+      const double lasts = std::min(step, remaining);
       memory.certificate->certificate.push_back(
-          {t, n.normalized(), gap, (gap - options.target) / step, std::min(step, remaining)});
+          {t, n.normalized(), gap, (gap - options.target) / lasts, lasts});
       memory.certificate->certificate_leaves.push_back(
           {quad_a.first_leaf[node_a & 3], quad_a.leaf_count[node_a & 3], quad_b.first_leaf[node_b & 3],
            quad_b.leaf_count[node_b & 3]});
@@ -74,7 +77,7 @@ struct Search {
   }
 
   void wait(double time, float apart, const Vec3& n, NodeId node_a, NodeId node_b) {
-    if (time == kClear) return;
+    if (time >= horizon) return;
     queue.push_back({time,
                      apart,
                      {static_cast<float>(n.x()), static_cast<float>(n.y()), static_cast<float>(n.z())},
@@ -136,7 +139,7 @@ struct Search {
       const Vec3 n = look.normal(lane);
       const float apart = std::max(0.0f, look.steps.gap[lane]) + quad.radius[lane] + other_radius;
       double step = look.steps.time[lane], step_gap = gap;
-      if (quad.child[lane] < 0 && other_is_leaf && pair.time + step < options.interval)
+      if (quad.child[lane] < 0 && other_is_leaf && pair.time + step < std::min(options.interval, horizon))
         step_points(pair.time, n.normalized(), child_a, child_b, step, step_gap);
       wait(step > 0 ? advanced(pair.time, step, n, step_gap, child_a, child_b) : pair.time, apart, n, child_a,
            child_b);
@@ -190,10 +193,28 @@ struct Search {
     return false;
   }
 
+  // The leaves that met in the query before often meet again, a little later: when they would is an upper
+  // bound of the first contact, and what is clear until then need not wait.
+  void begin_with_last() {
+    Waiting last{0, 0, {1, 0, 0}, memory.last_a, memory.last_b};
+    queue.push_back(last);
+    for (int looks = 0; looks < kLooksAtLast && !queue.empty() && horizon == kClear; ++looks) {
+      last = queue.front();
+      queue.clear();
+      if (last.time != pose_time) look_from(last.time);
+      if (look(last) && last.time > 0) horizon = last.time;
+    }
+    queue.clear();
+    if (horizon < kClear) queue.push_back(last);
+    if (pose_time != 0) look_from(0);
+  }
+
   void run() {
     queue.clear();
     look_from(0);
+    if (memory.coherent && memory.last_a >= 0 && memory.certificate == nullptr) begin_with_last();
     wait(0, 0, Vec3::UnitX(), 0, 0);
+    // ANCHOR: run
     while (!queue.empty()) {
       const Waiting top = queue.front();
       // Whether the two touch at the start is told in any case.
@@ -210,9 +231,12 @@ struct Search {
         if (!advance_again(top)) open(top);
       } else if (look(top)) {
         reach.status = Reach::Status::reached;
+        memory.last_a = top.a;
+        memory.last_b = top.b;
         return;
       }
     }
+    // ANCHOR_END: run
     reach.status = Reach::Status::clear;
     reach.time = options.interval;
   }

@@ -64,8 +64,7 @@ int run(const Scene& scene, const RunContext& context, Summary& summary) {
 
 std::vector<Effect> explain(const Scene&) {
   return {{"collision query", "derived: the scene has two bodies",
-           "convex pieces, a hierarchy of their hulls, best-first conservative advancement, contact features",
-           0}};
+           "a hierarchy of boxes, best-first conservative advancement, contact features", 0}};
 }
 
 }  // namespace
@@ -76,10 +75,9 @@ int main(int argc, char** argv) {
   chapter.name = "ch02_hull_hierarchy";
   chapter.purpose =
       "Finds the first contact of two moving bodies of any shape, meshes included, and all contact features "
-      "there, by "
-      "conservative advancement on a hierarchy of convex hulls. First true form: one search, without the "
-      "comparisons and "
-      "the temporal coherence of the complete chapter.";
+      "there, by best-first conservative advancement on a hierarchy of boxes, four at a time. Also makes the "
+      "paper's convex pieces and their hierarchy of hulls, for the pictures of a single query; ch02_replay "
+      "checks what --certificate writes.";
   chapter.example = "build/bin/ch02_hull_hierarchy chapters/ch02_hull_hierarchy/scenes/two_bunnies.yaml";
   chapter.explain = explain;
   chapter.run = run;

@@ -33,17 +33,20 @@ void open(const Model& a, const Model& b, const PairViews& views, const NodePair
   for (int lane = 0; lane < 4 && quad.child[lane] != 0; ++lane) {
     const Vec3 n(steps.normal.x[lane], steps.normal.y[lane], steps.normal.z[lane]);
     const NodeId child = 4 * below + lane;
-    visit(NodePair{steps.gap[lane] - a.radius - b.radius,
-                   (sign * (view.rotation.transpose() * n)).cast<float>(), open_a ? child : pair.a,
-                   open_a ? pair.b : child});
+    visit(NodePair{
+        std::max(pair.lower, steps.gap[lane] - a.radius - b.radius),  // the parent's plane holds for it too
+
+        (sign * (view.rotation.transpose() * n)).cast<float>(), open_a ? child : pair.a,
+        open_a ? pair.b : child});
   }
 }
 
-bool farther(const NodePair& x,
-             const NodePair& y) {  // the queue's top: smallest bound, then the order of the trees
-  if (x.lower != y.lower) return x.lower > y.lower;
-  return x.a != y.a ? x.a > y.a : x.b > y.b;
-}
+struct Farther {  // the queue's top: smallest bound, then the order of the trees
+  bool operator()(const NodePair& x, const NodePair& y) const {
+    if (x.lower != y.lower) return x.lower > y.lower;
+    return x.a != y.a ? x.a > y.a : x.b > y.b;
+  }
+};
 
 }  // namespace
 
@@ -63,28 +66,42 @@ ModelDistance model_distance(const Model& a, const Model& b, const ca::PairPose&
   result.upper = result.lower = std::numeric_limits<double>::infinity();
   const PairViews views = views_at_rest(pose);
   std::vector<NodePair> queue{{-std::numeric_limits<double>::infinity(), Vec3f::UnitX(), 0, 0}};
+  const auto look = [&](const NodePair& leaf_pair) {
+    ++result.leaf_pairs;
+    const int leaf_a = ~a.boxes.child(leaf_pair.a), leaf_b = ~b.boxes.child(leaf_pair.b);
+    const LeafPair pair{leaf_a, leaf_b, leaf_distance(a.leaf(leaf_a), b.leaf(leaf_b), pose, tolerance)};
+    result.upper = std::min(result.upper, pair.gjk.upper);
+    if (pair.gjk.lower >= result.lower) return;
+    result.lower = pair.gjk.lower;
+    if (pair.gjk.lower <= cutoff) result.nearest = pair;
+  };
+  // Straight down to two leaves that are near each other: with their distance most pairs never enter the
+  // queue.
+  NodePair down = queue.front();
+  while (!leaves(a, b, down)) {
+    NodePair nearest{std::numeric_limits<double>::infinity(), Vec3f::UnitX(), 0, 0};
+    open(a, b, views, down, [&](const NodePair& child) {
+      ++result.node_pairs;
+      if (child.lower < nearest.lower) nearest = child;
+    });
+    down = nearest;
+  }
+  look(down);
   while (!queue.empty()) {
     const NodePair top = queue.front();
     if (top.lower >= std::min({result.lower, result.upper, cutoff})) break;
-    std::pop_heap(queue.begin(), queue.end(), farther);
+    std::pop_heap(queue.begin(), queue.end(), Farther{});
     queue.pop_back();
     if (!leaves(a, b, top)) {
       open(a, b, views, top, [&](const NodePair& child) {
         ++result.node_pairs;
         if (child.lower >= std::min(result.upper, cutoff)) return;
         queue.push_back(child);
-        std::push_heap(queue.begin(), queue.end(), farther);
+        std::push_heap(queue.begin(), queue.end(), Farther{});
       });
       continue;
     }
-    ++result.leaf_pairs;
-    const int leaf_a = ~a.boxes.child(top.a), leaf_b = ~b.boxes.child(top.b);
-    const LeafPair pair{leaf_a, leaf_b, leaf_distance(a.leaf(leaf_a), b.leaf(leaf_b), pose, tolerance)};
-    result.upper = std::min(result.upper, pair.gjk.upper);
-    if (pair.gjk.lower < result.lower) {
-      result.lower = pair.gjk.lower;
-      if (pair.gjk.lower <= cutoff) result.nearest = pair;
-    }
+    look(top);
   }
   // What was never opened is no nearer than the queue's first, nor than the cutoff.
   if (!queue.empty()) result.lower = std::min(result.lower, queue.front().lower);
@@ -96,7 +113,7 @@ std::vector<LeafPair> leaf_pairs_within(const Model& a, const Model& b, const ca
                                         double threshold, double tolerance) {
   std::vector<LeafPair> found;
   const PairViews views = views_at_rest(pose);
-  std::vector<NodePair> stack{{0, Vec3f::UnitX(), 0, 0}};
+  std::vector<NodePair> stack{{-std::numeric_limits<double>::infinity(), Vec3f::UnitX(), 0, 0}};
   while (!stack.empty()) {
     const NodePair top = stack.back();
     stack.pop_back();

@@ -58,10 +58,15 @@ struct Case {
   int count() const { return static_cast<int>(pairs.size()); }
 };
 
-ca::AdvanceResult ours(const Bunny& bunny, const BunnyPair& pair, double tolerance) {
+// What FCL answers: whether, and when. `complete`: and all features in contact, or the distance at the end.
+const ca::AdvanceResult& ours(const Bunny& bunny, const BunnyPair& pair, double tolerance, bool complete) {
+  static hulls::SearchMemory memory;
+  static ca::AdvanceResult result;
   ca::AdvanceOptions options;
   options.tolerance = tolerance * bunny.size;
-  return hulls::advance(bunny.model, pair.a, bunny.model, pair.b, options);
+  options.features = options.end_distance = complete;
+  hulls::advance(bunny.model, pair.a, bunny.model, pair.b, options, memory, result);
+  return result;
 }
 
 // Both engines move the bodies alike.
@@ -83,7 +88,7 @@ Case make_case(const Bunny& bunny, const std::vector<BunnyPair>& pairs) {
   for (const BunnyPair& pair : pairs) {
     made.ends.push_back({pair.a.pose_at(0), pair.a.pose_at(1), pair.b.pose_at(0), pair.b.pose_at(1)});
     check_poses(pair, made.ends.back());
-    const ca::AdvanceResult our = ours(bunny, pair, kTruthTolerance);
+    const ca::AdvanceResult our = ours(bunny, pair, kTruthTolerance, false);
     const FclAnswer fcl = fcl_advance(*bunny.fcl, made.ends.back(), kTruthTolerance * bunny.size);
     const bool our_hit = our.status == ca::Status::contact;
     made.truth.push_back({our_hit || fcl.hit, std::min(our_hit ? our.toc : 1, fcl.hit ? fcl.toc : 1)});
@@ -101,8 +106,8 @@ struct Answer {
   double volumes = 0, leaves = 0;  // pairs that were tested
 };
 
-Answer ask_ours(const Case& c, int i, double tolerance) {
-  const ca::AdvanceResult r = ours(*c.bunny, c.pairs[i], tolerance);
+Answer ask_ours(const Case& c, int i, double tolerance, bool complete) {
+  const ca::AdvanceResult& r = ours(*c.bunny, c.pairs[i], tolerance, complete);
   return {r.status == ca::Status::contact, r.toc,
           r.status != ca::Status::contact && r.status != ca::Status::separated,
           static_cast<double>(r.node_pairs), static_cast<double>(r.distance_calls)};
@@ -139,12 +144,13 @@ Verdict judge(const Case& c, const Ask& ask, double tolerance, const std::string
 
 template <class GetCase>
 void add_ours(const std::string& name, const GetCase& get, double tolerance = kTolerance) {
-  add_row_when_run(name + "/ours", kFast, [=] {
-    const Case& c = get();
-    const auto ask = [&c, tolerance](int i) { return ask_ours(c, i, tolerance); };
-    return Row{c.count(), [=](int i) { return ask(i).toc; },
-               [=, &c] { return judge(c, ask, tolerance, "node_pairs", "leaf_pairs"); }};
-  });
+  for (const bool complete : {false, true})
+    add_row_when_run(name + (complete ? "/ours_complete" : "/ours"), kFast, [=] {
+      const Case& c = get();
+      const auto ask = [&c, tolerance, complete](int i) { return ask_ours(c, i, tolerance, complete); };
+      return Row{c.count(), [=](int i) { return ask(i).toc; },
+                 [=, &c] { return judge(c, ask, tolerance, "node_pairs", "leaf_pairs"); }};
+    });
 }
 
 template <class GetCase>

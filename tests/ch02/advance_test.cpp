@@ -229,4 +229,42 @@ TEST(MeshAdvance, Bunnies) {
   EXPECT_GE(contacts, 20);
 }
 
+// The leaves that met last only say how late the answer can be: it stays the same, whether they meet again or
+// not.
+TEST(FirstReach, CoherentQueriesHaveTheSameAnswers) {
+  Random random(17);
+  const Model a = model_of(bumpy_ball(random, 12)), b = model_of(ring(1, 0.3, 20, 9));
+  SearchMemory coherent, plain;
+  coherent.coherent = true;
+  int hits = 0, again = 0;
+  for (int round = 0; round < 40; ++round) {
+    const Vec3 from = 2.6 * unit_vector(random), aim = 0.9 * unit_vector(random);
+    const Quat turned = rotation(random);
+    const Vec3 spin_a = uniform(random, 0, 2) * unit_vector(random),
+               spin_b = uniform(random, 0, 2) * unit_vector(random);
+    for (int frame = 0; frame < 4; ++frame) {  // nearly the same query, and at last another one
+      const Vec3 shift = frame < 3 ? Vec3(1e-3 * frame * Vec3::UnitX()) : Vec3(unit_vector(random));
+      const ca::Motion ma = motion(shift, Quat::Identity(), Vec3::Zero(), spin_a);
+      const ca::Motion mb = motion(from, turned, aim - from, spin_b);
+      ReachOptions options;
+      options.start = options.tolerance;
+      const int last_a = coherent.last_a, last_b = coherent.last_b;
+      const Reach x = first_reach(a, ma, b, mb, options, coherent),
+                  y = first_reach(a, ma, b, mb, options, plain);
+      ASSERT_EQ(x.status, y.status);
+      if (x.status != Reach::Status::reached) continue;
+      ++hits;
+      again += coherent.last_a == last_a && coherent.last_b == last_b;
+      options.target /= 64;
+      options.slack /= 64;
+      options.start = -1;
+      ASSERT_LE(x.time, first_reach(a, ma, b, mb, options, plain).time);
+      ASSERT_LE(x.pair.gjk.upper, options.tolerance);
+      ASSERT_LE(x.node_pairs, y.node_pairs + 4 * 12);
+    }
+  }
+  EXPECT_GT(hits, 60);
+  EXPECT_GT(again, 20);
+}
+
 }  // namespace

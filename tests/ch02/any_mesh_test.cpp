@@ -238,10 +238,9 @@ TEST(AnyMesh, ASolidOfPartsThatTouch) {
   }
 }
 
-// Fails so far. Two closed parts that share a wall: each edge is used as often in one direction as in the
-// other, so the mesh is a solid. But of the wall's two sides one is removed as a duplicate, and what is left
-// is taken for a surface. (Both may go, or both may stay.)
-TEST(AnyMesh, DISABLED_ASolidOfPartsThatShareAWall) {
+// Two closed parts that share a wall: each edge is used as often in one direction as in the other, so the
+// mesh is a solid, and the wall's two sides are no duplicates.
+TEST(AnyMesh, ASolidOfPartsThatShareAWall) {
   const TriangleMesh cube = box_core({0.5, 0.5, 0.5});
   TriangleMesh mirrored = inside_out(cube);
   for (Vec3& v : mirrored.vertices) v.x() = 1 - v.x();

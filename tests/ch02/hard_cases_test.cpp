@@ -618,7 +618,7 @@ TEST(MeshHardCase, DISABLED_CoincidentSurfacesHaveTrueFeatures) {
 
 // A patch has its corners: a vertex all of whose triangles lie in one plane is drawn on it, and is no
 // feature.
-TEST(MeshHardCase, DISABLED_FlatPatchesMeetInTheirCornersAlone) {
+TEST(MeshHardCase, FlatPatchesMeetInTheirCornersAlone) {
   const Body table(tiled_box({2, 2, 0.2}, {5, 5, 1})), tile(tiled_box({1, 1, 0.2}, {8, 8, 1}));
   for (const auto& [x, y] : Outline{{0, 0}, {0.83, 0.71}})
     EXPECT_EQ(ask(table, at({0, 0, -0.1}), tile, at({x, y, 2.1}, {0, 0, -4})).features.size(), 4u);

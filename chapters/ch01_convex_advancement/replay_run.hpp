@@ -1,0 +1,33 @@
+// What the programs share that check the certificates of chapters 1 and 2: options, tables, messages, exit
+// codes.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "ch01_convex_advancement/replay.hpp"
+#include "common/scene.hpp"
+
+namespace fc::ca {
+
+// The scene's queries, whatever they are about, and how to replay one.
+struct ReplayQuestions {
+  std::size_t count;
+  std::function<std::vector<Refusal>(std::size_t query, const ReplayAnswer&,
+                                     const std::vector<CertificateRow>&)>
+      replay;
+};
+
+struct ReplayProgram {
+  int chapter;
+  std::string purpose, example;  // for --help
+  std::function<ReplayQuestions(const Scene&, const std::filesystem::path& run)> questions;
+};
+
+// Reads SCENE and RUN_DIR from the command line, replays every query, and writes a line on standard error for
+// each thing that is refused. Returns the exit code: 0, all is proved; 3, something is not; 2, bad input.
+int run_replay(int argc, char** argv, const ReplayProgram& program);
+
+}  // namespace fc::ca
