@@ -50,7 +50,7 @@ double best_surface(const Points& points) {
   Mat3 center = Mat3::Identity();
   double width = std::numbers::pi / 4;
   for (int round = 0; round < 4; ++round) {
-    constexpr int n = 9;
+    constexpr int n = 7;
     const Mat3 about = center;
     for (int i = -n; i <= n; ++i)
       for (int j = -n; j <= n; ++j)
@@ -64,7 +64,7 @@ double best_surface(const Points& points) {
             center = axes;
           }
         }
-    width /= 5;
+    width /= 4;
   }
   return best;
 }
@@ -79,9 +79,9 @@ Points corners(const Vec3& half) {
 Points crowded() {
   Points points = corners({1, 0.6, 0.15});
   Any any;
-  for (int k = 0; k < 400; ++k)
+  for (int k = 0; k < 100; ++k)
     points.emplace_back(0.9 - 0.1 * any.number(0, 1), -0.6 + 1.2 * any.number(0, 1) * any.number(0, 1), 0.1);
-  for (int k = 0; k < 400; ++k) points.emplace_back(1 - 0.3 * k / 400, -0.6 + 0.3 * k / 400, -0.15);
+  for (int k = 0; k < 100; ++k) points.emplace_back(1 - 0.3 * k / 100, -0.6 + 0.3 * k / 100, -0.15);
   return points;
 }
 Points sets(int which) {

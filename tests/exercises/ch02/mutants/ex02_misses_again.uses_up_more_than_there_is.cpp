@@ -1,5 +1,5 @@
 // Caught by: Ex02MissesAgain.StopsBeforeTheyTouch
-// A step uses up the whole gap, not what is above half the tolerance.
+// The sign of what a step must leave.
 #include "ex02_misses_again.hpp"
 
 #include <algorithm>
@@ -32,7 +32,7 @@ struct Traversal {
     const hulls::HullNode &node_a = a.tree.nodes[i], &node_b = b.tree.nodes[j];
     const ca::Convex hull_a = a.convex(node_a), hull_b = b.convex(node_b);
     const ca::GjkResult g = ca::distance(hull_a, hull_b, pose, {tolerance / 8, 1e-6, 128});
-    const double room = g.lower;  // what a step may use up
+    const double room = g.lower + tolerance / 2;  // what a step may use up
     const double safe = room > 0 ? hulls::ball_step(motion_a, hull_a, node_a.radius, motion_b, hull_b,
                                                     node_b.radius, pose, g.normal, t, end, room)
                                        .time
