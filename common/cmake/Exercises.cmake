@@ -28,6 +28,13 @@ function(fc_add_exercise chapter name)
   add_executable(${id}_demo EXCLUDE_FROM_ALL ${CMAKE_SOURCE_DIR}/exercises/${chapter}/${name}.demo.cpp ${learner})
   fc_exercise_settings(${id}_demo ${chapter} ${ARG_LINKS})
 
+  add_executable(${id}_solution ${CMAKE_SOURCE_DIR}/solutions/${chapter}/${name}.cpp)
+  fc_exercise_settings(${id}_solution ${chapter} ${id}_tests ${ARG_LINKS})
+  gtest_discover_tests(${id}_solution TEST_PREFIX "solution.${chapter}." PROPERTIES TIMEOUT 60)
+  if(FC_SANITIZE)  # that stubs and mutants fail is proved once, in the other build
+    return()
+  endif()
+
   fc_exercise_begun(${learner} begun)
   if(begun)
     message(STATUS "${name} has been begun: the proof that its tests fail on the stub is left out")
@@ -36,10 +43,6 @@ function(fc_add_exercise chapter name)
     fc_exercise_settings(${id}_stub ${chapter} ${id}_tests ${ARG_LINKS})
     gtest_discover_tests(${id}_stub TEST_PREFIX "stub_must_fail.${chapter}." PROPERTIES WILL_FAIL TRUE TIMEOUT 60)
   endif()
-
-  add_executable(${id}_solution ${CMAKE_SOURCE_DIR}/solutions/${chapter}/${name}.cpp)
-  fc_exercise_settings(${id}_solution ${chapter} ${id}_tests ${ARG_LINKS})
-  gtest_discover_tests(${id}_solution TEST_PREFIX "solution.${chapter}." PROPERTIES TIMEOUT 60)
 
   file(GLOB mutants CONFIGURE_DEPENDS ${tests}/mutants/${name}.*.cpp)
   foreach(mutant IN LISTS mutants)
