@@ -110,6 +110,8 @@ std::string check_row(const RowProver& prove, const CertificateRow& row, Long re
   if (Long(row.t) < reached_before * (1 - Long(kChain)))
     return fmt::format("it starts at {:.17g} s, before the end of the row before it, {:.17g} s", row.t,
                        static_cast<double>(reached_before));
+  // A line that begins below 0 and rises may be true, and proves nothing.
+  if (!(row.gap_lower >= 0)) return "gap_lower is negative, " + text(row.gap_lower) + " m: nothing is clear";
   const Long used = Long(row.speed_bound) * Long(row.advance) * (1 - LDBL_EPSILON);
   if (used > Long(row.gap_lower))
     return "the gap of " + text(row.gap_lower) + " m does not last for " + text(row.advance) + " s at " +

@@ -116,6 +116,8 @@ struct Search {
     const int lane = node & 3;
     ++reach.node_pairs;
     if (look.steps.gap[lane] - limits.target <= kFarApart * radii) return false;
+    // At the start a gap between target and tolerance is not advanced: waiting at the same time has no end.
+    if (!(ca::sum_below(pair.time, look.steps.time[lane]) > pair.time)) return false;
     const Vec3 n = look.normal(lane);
     const double gap = look.steps.gap[lane] - (a.radius + b.radius);
     wait(advanced(pair.time, look.steps.time[lane], n, gap, pair.a, pair.b), look.steps.gap[lane] + radii, n,

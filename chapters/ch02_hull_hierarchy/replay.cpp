@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cfloat>
 #include <map>
+#include <numeric>
 
 namespace fc::hulls {
 namespace {
@@ -12,6 +14,8 @@ using ca::Long;
 using ca::LongVec;
 
 constexpr int kMostHoles = 10;
+// Of a point's coordinates in a box, as a part of the model's reach; boxes are built 1e-15 of it larger.
+constexpr Long kBoxRounding = 64 * LDBL_EPSILON;
 constexpr Long kRoundedToc = 1e-15L;  // toc is a fraction of the interval in queries.csv: two roundings
 
 LongVec lane(const Lanes3& x, int k) {
@@ -54,9 +58,18 @@ struct Side {
     if (const auto found = points.find(node); found != points.end()) return found->second;
     const BoxQuad& quad = model.boxes.quads[node >> 2];
     const int first = quad.first_leaf[node & 3], end = first + quad.leaf_count[node & 3];
+    std::vector<int> vertices;  // each once
+    if (model.filled) {
+      vertices.resize(model.mesh.vertices.size());
+      std::iota(vertices.begin(), vertices.end(), 0);
+    } else {
+      for (int k = first; k < end; ++k)
+        for (const int v : model.mesh.triangles[model.boxes.leaf_item[k]]) vertices.push_back(v);
+      std::sort(vertices.begin(), vertices.end());
+      vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    }
     std::vector<LongVec> of;
-    for (int k = model.boxes.leaf_start[first]; k < model.boxes.leaf_start[end]; ++k)
-      of.push_back(model.boxes.points[k].cast<Long>());
+    for (const int v : vertices) of.push_back(model.mesh.vertices[v].cast<Long>());
     return points.emplace(node, shape(std::move(of))).first->second;
   }
   // A few points that have the node's leaves between them.
@@ -106,10 +119,10 @@ struct Replay {
     rows_of[{i, j}].push_back(k);
   }
 
-  // Whether the block is clear from `since`, until which its parents have proved it, until toc.
-  void cover(NodeId i, NodeId j, Long since) {
+  // Whether the block is clear from `since`, until which row `last` of a parent has proved it (-1: none has),
+  // until toc.
+  void cover(NodeId i, NodeId j, Long since, int last) {
     if (holes >= kMostHoles) return;
-    int last = -1;
     if (const auto found = rows_of.find({i, j}); found != rows_of.end()) {
       std::stable_sort(found->second.begin(), found->second.end(),
                        [&](int x, int y) { return rows[x].t < rows[y].t; });
@@ -141,7 +154,7 @@ struct Replay {
     const BoxTree& tree = open_a ? query.a.boxes : query.b.boxes;
     const int below = tree.child(open_a ? i : j);
     for (int k = 0; k < 4 && tree.quads[below].child[k] != 0; ++k)
-      open_a ? cover(4 * below + k, j, since) : cover(i, 4 * below + k, since);
+      open_a ? cover(4 * below + k, j, since, last) : cover(i, 4 * below + k, since, last);
   }
 };
 
@@ -172,7 +185,8 @@ std::string check_tree(const Model& model) {
       const int first = quad.first_leaf[k], end = first + quad.leaf_count[k];
       for (int p = tree.leaf_start[first]; p < tree.leaf_start[end]; ++p) {
         const LongVec s = inverse * (tree.points[p].cast<Long>() - box.center);
-        if (!(s.cwiseAbs().array() <= box.half.array()).all()) return "a point lies outside a box above it";
+        if (!(s.cwiseAbs().array() + kBoxRounding * Long(model.reach) <= box.half.array()).all())
+          return "a point lies outside a box above it";
       }
       const int child = quad.child[k];
       if (child < 0) {
@@ -192,14 +206,21 @@ std::string check_tree(const Model& model) {
 std::vector<ca::Refusal> replay(const PairQuery& query, const ca::ReplayAnswer& answer,
                                 const std::vector<ca::CertificateRow>& rows,
                                 const std::vector<ca::LeafBlock>& blocks) {
-  if (const std::string what = ca::replay_answer(query.interval, answer, !rows.empty()); !what.empty())
+  if (query.motion_a.free || query.motion_b.free)
+    return {{-1, "a body turns freely: only constant spin can be replayed"}};
+  // Where two bodies touch at the start, other pairs of their nodes have been advanced all the same: their
+  // rows prove nothing of the answer.
+  const bool at_start =
+      answer.status == ca::Status::touching_at_start || answer.status == ca::Status::penetrating_at_start;
+  if (const std::string what = ca::replay_answer(query.interval, answer, !at_start && !rows.empty());
+      !what.empty())
     return {{-1, what}};
   if (rows.size() != blocks.size())
     return {{-1, fmt::format("the certificate has {} rows, but names the leaves of {}", rows.size(),
                              blocks.size())}};
   Replay replay{query, rows, blocks, Long(answer.toc) * Long(query.interval)};
   for (int k = 0; k < static_cast<int>(rows.size()); ++k) replay.check_row(k);
-  if (replay.wrong.empty()) replay.cover(0, 0, 0);
+  if (replay.wrong.empty()) replay.cover(0, 0, 0, -1);
   return replay.wrong;
 }
 

@@ -24,7 +24,8 @@ struct PairQuery {
 // row is held against its boxes' corners, which have the leaves between them, and, if that does not show it,
 // against the leaves' own points. Then the blocks: what a block's rows prove from the time on that its
 // parents had reached must last until toc, or be taken up by its parts. Stops at the tenth block that does
-// not.
+// not. Not checked: gap_lower and gap_upper at toc, and whether a start that is said to touch or to overlap
+// does (rows that stand beside such an answer must be true all the same).
 std::vector<ca::Refusal> replay(const PairQuery& query, const ca::ReplayAnswer& answer,
                                 const std::vector<ca::CertificateRow>& rows,
                                 const std::vector<ca::LeafBlock>& blocks);

@@ -1,6 +1,10 @@
 // ch02_replay: checks the certificates that chapter 2's executable wrote.
 #include "ch02_hull_hierarchy/replay.hpp"
 
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
 #include <memory>
 
 #include "ch01_convex_advancement/query_run.hpp"
@@ -11,32 +15,42 @@ namespace {
 
 using namespace fc;
 
-// certificate_leaves.csv: of each query, the leaves that its rows are about.
-std::vector<std::vector<ca::LeafBlock>> read_blocks(const std::filesystem::path& run, std::size_t queries) {
-  std::vector<std::vector<ca::LeafBlock>> blocks(queries);
+// certificate_leaves.csv: of each query, the leaves that its rows are about, and what is wrong with their
+// numbering.
+struct QueryBlocks {
+  std::vector<ca::LeafBlock> blocks;
+  std::string wrong;
+};
+std::vector<QueryBlocks> read_blocks(const std::filesystem::path& run, std::size_t queries) {
+  std::vector<QueryBlocks> result(queries);
   const std::filesystem::path file = run / "certificate_leaves.csv";
-  if (!std::filesystem::exists(file)) return blocks;  // no row, no leaves: the rows, if any, are refused
+  if (!std::filesystem::exists(file)) return result;  // no row, no leaves: the rows, if any, are refused
   const ReadTable table = read_table(file, "query,k,first_a,count_a,first_b,count_b");
   for (const ReadTable::Row& row : table.rows) {
     std::array<int, 6> x{};
     for (int c = 0; c < 6; ++c) {
       const double number = table.number(row, c);
-      if (!(number >= 0 && number < 2e9)) throw InputError(table.mark(row, c), "must be a number of leaves");
+      if (!(number >= 0 && number < 2e9 && number == std::floor(number)))
+        throw InputError(table.mark(row, c), "must be a whole number, 0 or more");
       x[c] = static_cast<int>(number);
     }
-    if (x[0] >= static_cast<int>(queries) || x[1] != static_cast<int>(blocks[x[0]].size()))
-      throw InputError(table.mark(row, 1),
-                       "row " + row.cells[1] + " of query " + row.cells[0] + " is out of order");
-    blocks[x[0]].push_back({x[2], x[3], x[4], x[5]});
+    if (x[0] >= static_cast<int>(queries))
+      throw InputError(table.mark(row, 0), "there is no query " + row.cells[0]);
+    QueryBlocks& query = result[x[0]];
+    if (x[1] != static_cast<int>(query.blocks.size()) && query.wrong.empty())
+      query.wrong = fmt::format("{}:{}: row {} of query {} is out of order, or one before it is missing",
+                                std::filesystem::path(table.file).filename().string(), row.line, row.cells[1],
+                                row.cells[0]);
+    query.blocks.push_back({x[2], x[3], x[4], x[5]});
   }
-  return blocks;
+  return result;
 }
 
 ca::ReplayQuestions questions_of(const Scene& scene, const std::filesystem::path& run) {
   struct Known {
     std::vector<hulls::Model> models;
     std::vector<ca::QueryMotions> motions;
-    std::vector<std::vector<ca::LeafBlock>> blocks;
+    std::vector<QueryBlocks> blocks;
     std::string tree;  // what is wrong with one
   };
   const auto known = std::make_shared<Known>();
@@ -53,9 +67,10 @@ ca::ReplayQuestions questions_of(const Scene& scene, const std::filesystem::path
               std::size_t q, const ca::ReplayAnswer& answer,
               const std::vector<ca::CertificateRow>& rows) -> std::vector<ca::Refusal> {
             if (!known->tree.empty()) return {{-1, known->tree}};
+            if (!known->blocks[q].wrong.empty()) return {{-1, known->blocks[q].wrong}};
             return hulls::replay(
                 {known->models[a], known->models[b], known->motions[q].a, known->motions[q].b, interval},
-                answer, rows, known->blocks[q]);
+                answer, rows, known->blocks[q].blocks);
           }};
 }
 
