@@ -60,7 +60,7 @@ struct AdvanceOptions {
   bool features = true;  // find all features in contact (chapter 2; chapter 1 has the witness points anyway)
   bool end_distance = true;  // and, where nothing was hit, the distance at the end (chapter 2): else
                              // gap_lower is what the search has proved and gap_upper infinite
-  bool warm_start = true;  // GJK begins with the simplex of the pose before (chapter 1)
+  bool warm_start = true;    // GJK begins with the simplex of the pose before (chapter 1)
 };
 
 // Throws std::invalid_argument for an interval or a tolerance that is negative or not finite, and, the second
