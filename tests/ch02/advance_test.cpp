@@ -229,6 +229,19 @@ TEST(MeshAdvance, Bunnies) {
   EXPECT_GE(contacts, 20);
 }
 
+// A gap between half the tolerance and all of it, large for the bodies: at the start it is not advanced but
+// looked into.
+TEST(MeshAdvance, BodiesSmallerThanTheToleranceTouchAtTheStart) {
+  TriangleMesh grain = l_prism();
+  for (Vec3& p : grain.vertices) p *= 1e-7;
+  const Model a = model_of(grain);
+  for (const double gap : {0.6e-6, 0.8e-6, 0.99e-6}) {
+    const ca::AdvanceResult r = advance(
+        a, motion({0, 0, 0}), a, motion({1.5e-7 + gap, 0, 0}, Quat::Identity(), {-1, 0, 0}), within(1));
+    EXPECT_EQ(r.status, Status::touching_at_start);
+  }
+}
+
 // The leaves that met last only say how late the answer can be: it stays the same, whether they meet again or
 // not.
 TEST(FirstReach, CoherentQueriesHaveTheSameAnswers) {
