@@ -171,11 +171,19 @@ struct Collector {
     add(x, y, n, FeatureKind::edge, e, FeatureKind::edge, f);
   }
 
-  // Where edges cross at a vertex that is drawn on one of them: their cross product, which is exact, for `n`
-  // (to its side). False if they are parallel: then their ends tell.
-  static bool edges_normal(const Vec3& u, const Vec3& v, Vec3& n) {
+  // Where two edges cross at a vertex that is drawn on one of them, or on both: their points there, and their
+  // cross product, which is exact, for `n` (to its side). False if they are parallel (their ends tell), or
+  // cross elsewhere (edge_edge tells). x and y: on the edges along u and v.
+  bool cross_here(Vec3& x, const Vec3& u, Vec3& y, const Vec3& v, Vec3& n) const {
     const Vec3 cross = u.cross(v);
-    if (cross.norm() <= kParallelEdges * u.norm() * v.norm()) return false;
+    const double size2 = cross.squaredNorm();
+    if (size2 <= kParallelEdges * kParallelEdges * u.squaredNorm() * v.squaredNorm()) return false;
+    const Vec3 along_u = (y - x).cross(v).dot(cross) / size2 * u,
+               along_v = (y - x).cross(u).dot(cross) / size2 * v;
+    const double here = kOnBorder * (a.model.reach + b.model.reach);
+    if (along_u.norm() > here || along_v.norm() > here) return false;
+    x += along_u;
+    y += along_v;
     n = cross.normalized() * (cross.dot(n) < 0 ? -1 : 1);
     return true;
   }
@@ -183,14 +191,15 @@ struct Collector {
   // A vertex nearest to the inside of an edge, or to a vertex: the normal joins them. `v` is with_vertex's.
   void vertex_edge(const Placed& with_vertex, int v, const Placed& with_edge, int e, double sign) {
     const auto& [i, j] = with_edge.model.mesh.edges[e].vertex;
-    const Vec3 x = with_vertex.vertex(v), p = with_edge.vertex(i), u = with_edge.vertex(j) - p;
+    Vec3 x = with_vertex.vertex(v);
+    const Vec3 p = with_edge.vertex(i), u = with_edge.vertex(j) - p;
     const double s = u.dot(x - p) / u.squaredNorm();
     if (!(s > 0 && s < 1)) return;
-    const Vec3 foot = p + s * u;
+    Vec3 foot = p + s * u;
     const double apart = (foot - x).norm();
     if (std::abs(apart - radii) > tolerance || !has_direction(apart)) return;
     Vec3 n = sign * (foot - x) / apart;
-    if (with_vertex.on_edge(v) && !edges_normal(with_vertex.drawn_on(v), u, n)) return;
+    if (with_vertex.on_edge(v) && !cross_here(x, with_vertex.drawn_on(v), foot, u, n)) return;
     const Vec3 strict = sign * n;  // from the vertex's body to the edge's
     if (n.dot(toward) <= 0) return;
     if (!with_vertex.vertex_cone(v, strict) || !with_edge.edge_cone(e, -strict)) return;
@@ -200,11 +209,11 @@ struct Collector {
       add(foot, x, n, FeatureKind::edge, e, FeatureKind::vertex, v);
   }
   void vertex_vertex(int v, int w) {
-    const Vec3 x = a.vertex(v), y = b.vertex(w);
+    Vec3 x = a.vertex(v), y = b.vertex(w);
     const double apart = (y - x).norm();
     if (std::abs(apart - radii) > tolerance || !has_direction(apart)) return;
     Vec3 n = (y - x) / apart;
-    if (a.on_edge(v) && b.on_edge(w) && !edges_normal(a.drawn_on(v), b.drawn_on(w), n)) return;
+    if (a.on_edge(v) && b.on_edge(w) && !cross_here(x, a.drawn_on(v), y, b.drawn_on(w), n)) return;
     if (n.dot(toward) <= 0 || !a.vertex_cone(v, n) || !b.vertex_cone(w, -n)) return;
     add(x, y, n, FeatureKind::vertex, v, FeatureKind::vertex, w);
   }
