@@ -119,10 +119,10 @@ struct Replay {
     rows_of[{i, j}].push_back(k);
   }
 
-  // Whether the block is clear from `since`, until which row `last` of a parent has proved it (-1: none has),
-  // until toc.
-  void cover(NodeId i, NodeId j, Long since, int last) {
+  // Whether the block is clear from `since`, until which its parents have proved it, until toc.
+  void cover(NodeId i, NodeId j, Long since) {
     if (holes >= kMostHoles) return;
+    int last = -1;
     if (const auto found = rows_of.find({i, j}); found != rows_of.end()) {
       std::stable_sort(found->second.begin(), found->second.end(),
                        [&](int x, int y) { return rows[x].t < rows[y].t; });
@@ -154,7 +154,7 @@ struct Replay {
     const BoxTree& tree = open_a ? query.a.boxes : query.b.boxes;
     const int below = tree.child(open_a ? i : j);
     for (int k = 0; k < 4 && tree.quads[below].child[k] != 0; ++k)
-      open_a ? cover(4 * below + k, j, since, last) : cover(i, 4 * below + k, since, last);
+      open_a ? cover(4 * below + k, j, since) : cover(i, 4 * below + k, since);
   }
 };
 
@@ -220,7 +220,7 @@ std::vector<ca::Refusal> replay(const PairQuery& query, const ca::ReplayAnswer& 
                              blocks.size())}};
   Replay replay{query, rows, blocks, Long(answer.toc) * Long(query.interval)};
   for (int k = 0; k < static_cast<int>(rows.size()); ++k) replay.check_row(k);
-  if (replay.wrong.empty()) replay.cover(0, 0, 0, -1);
+  if (replay.wrong.empty()) replay.cover(0, 0, 0);
   return replay.wrong;
 }
 
