@@ -119,10 +119,10 @@ LcpResult Dantzig::finish(Status status) {
     result.z.setZero();
     result.w = b_given_;
   }
-  result.residual = residual(A_given_, b_given_, result.z, result.w);
+  result.residual = residual({A_given_, b_given_}, result.z, result.w);
   result.pivots = pivots_;
   result.status = status;
-  if (status == Status::solved && !acceptable(A_given_, b_given_, result.z, result.w)) {
+  if (status == Status::solved && !acceptable({A_given_, b_given_}, result.z, result.w)) {
     result.status = lowest_schur_ < -rank_rounding_ ? Status::unsuited : Status::limit;
   }
   return result;
@@ -160,8 +160,10 @@ LcpResult Dantzig::run() {
 
 }  // namespace detail
 
-LcpResult solve_dantzig(const MatX& A, const VecX& b, const DantzigOptions& options) {
-  check_arguments(A, b);
+LcpResult solve_dantzig(const Lcp& problem, const DantzigOptions& options) {
+  check_arguments(problem);
+  const MatX& A = problem.A;
+  const VecX& b = problem.b;
   int pivots_left = options.max_pivots > 0 ? options.max_pivots : 100 + 50 * static_cast<int>(b.size());
   LcpResult best;
   int pivots = 0;

@@ -26,6 +26,6 @@ struct DantzigOptions {
 // Where A is singular, w is unique but z is not: z is then one of the solutions, at most rank(A) of its
 // entries are not 0. The order of the rows may select another z. The cost is O(n^2) for each pivot. Throws
 // std::invalid_argument for sizes that do not match and for entries that are not finite.
-LcpResult solve_dantzig(const MatX& A, const VecX& b, const DantzigOptions& options = {});
+LcpResult solve_dantzig(const Lcp& problem, const DantzigOptions& options = {});
 
 }  // namespace fc::lcp

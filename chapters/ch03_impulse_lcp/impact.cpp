@@ -93,13 +93,13 @@ void apply_impulse(std::span<RigidBody> bodies, const Contact& contact, double i
 Status solve_once(std::span<RigidBody> bodies, std::span<const Contact> contacts,
                   const ImpactOptions& options, double& scale, ImpactResult& result) {
   const ImpactProblem problem = assemble(bodies, contacts);
-  const LcpResult lcp =
-      options.solver ? options.solver(problem.A, problem.b) : solve_dantzig(problem.A, problem.b);
+  const Lcp rows{problem.A, problem.b};
+  const LcpResult lcp = options.solver ? options.solver(rows) : solve_dantzig(rows);
   result.rows += static_cast<int>(problem.b.size());
   result.pivots += lcp.pivots;
   if (lcp.status != Status::solved) return lcp.status;
-  const double achieved = residual(problem.A, problem.b, lcp.z, evaluate(problem.A, problem.b, lcp.z));
-  if (!(achieved <= kResidual) || !acceptable(problem.A, problem.b, lcp.z, lcp.w)) return Status::limit;
+  const double achieved = residual(rows, lcp.z, evaluate(problem.A, problem.b, lcp.z));
+  if (!(achieved <= kResidual) || !acceptable(rows, lcp.z, lcp.w)) return Status::limit;
 
   const std::vector<Saved> before = save(bodies, contacts);
   for (std::size_t i = 0; i < contacts.size(); ++i) {

@@ -15,9 +15,9 @@ struct ImpactOptions {
   // same instant, at most so many times, >= 2, the last with restitution 0 for all, after which nothing
   // approaches.
   int max_solves = 8;
-  // A, b -> z; empty means Dantzig's method. Whatever stands here, its answer is checked before any velocity
-  // changes.
-  std::function<LcpResult(const MatX&, const VecX&)> solver;
+  // Rows -> impulses; empty means Dantzig's method. Whatever stands here, its answer is checked before any
+  // velocity changes.
+  std::function<LcpResult(const Lcp&)> solver;
 };
 
 // One impulse that was applied.

@@ -26,9 +26,9 @@ struct TimedResult {
   std::int64_t ns = 0;
 };
 
-TimedResult solve_timed(const MatX& A, const VecX& b) {
+TimedResult solve_timed(const Lcp& problem) {
   const std::int64_t start = now_ns();
-  LcpResult lcp = solve_dantzig(A, b);
+  LcpResult lcp = solve_dantzig(problem);
   return {std::move(lcp), now_ns() - start};
 }
 
@@ -82,7 +82,7 @@ int run_lcp(const LcpSpec& spec, const RunContext& context, Summary& summary) {
   std::optional<VecX> known;
   if (spec.solution_file) known = read_vector(*spec.solution_file, A.rows());
 
-  const TimedResult solved = solve_timed(A, b);
+  const TimedResult solved = solve_timed({A, b});
   write_solution(solved, context, summary);
   if (known && b.size() > 0) {
     // Velocities, not impulses: of a singular matrix z is not unique, w is.
@@ -160,8 +160,8 @@ int run_contacts(const Scene& scene, const RunContext& context, Summary& summary
   // Resolve the impact, keeping the first solve that succeeded, or the first of all, for the tables.
   std::optional<TimedResult> shown;
   std::int64_t solver_runs = 0, solver_ns = 0;
-  const ImpactOptions options{.solver = [&](const MatX& A, const VecX& b) {
-    const TimedResult solved = solve_timed(A, b);
+  const ImpactOptions options{.solver = [&](const Lcp& problem) {
+    const TimedResult solved = solve_timed(problem);
     if (!shown || (shown->lcp.status != Status::solved && solved.lcp.status == Status::solved))
       shown = solved;
     ++solver_runs;
@@ -174,7 +174,7 @@ int run_contacts(const Scene& scene, const RunContext& context, Summary& summary
   const std::int64_t impact_ns = now_ns() - start;
   if (!shown) {  // nothing approaches: the LCP of these contacts has the answer z = 0
     const ImpactProblem problem = assemble(bodies, contacts);
-    shown = solve_timed(problem.A, problem.b);
+    shown = solve_timed({problem.A, problem.b});
   }
 
   write_solution(*shown, context, summary);

@@ -7,6 +7,8 @@
 // depends on that.
 #pragma once
 
+#include <limits>
+
 #include "common/types.hpp"
 
 namespace fc::lcp {
@@ -22,6 +24,24 @@ enum class Status {
 // "solved", "no_solution", "ray", "limit", "unsuited": the words of solvers.csv.
 const char* name(Status status);
 
+// A problem as a solver takes it. It holds references: both must outlive the solve. Bounds are for friction
+// and joints, and ordinary contacts do without: where they are given, lower <= z <= upper takes the place of
+// z >= 0, and
+//     w_i >= 0 where z_i = lower_i,   w_i <= 0 where z_i = upper_i,   w_i = 0 between them.
+struct Lcp {
+  const MatX& A;                // n by n
+  const VecX& b;                // n
+  const VecX* lower = nullptr;  // n, in [-infinity, 0]; null: 0
+  const VecX* upper = nullptr;  // n, in [0, infinity], upper_i > lower_i; null: infinity
+
+  Eigen::Index size() const { return b.size(); }
+  bool boxed() const { return lower != nullptr || upper != nullptr; }
+  double low(Eigen::Index i) const { return lower != nullptr ? (*lower)[i] : 0.0; }
+  double high(Eigen::Index i) const {
+    return upper != nullptr ? (*upper)[i] : std::numeric_limits<double>::infinity();
+  }
+};
+
 // What every solver returns. Unless solved, z and w are where the method stopped: finite, and not to be used
 // as an answer.
 struct LcpResult {
@@ -29,27 +49,30 @@ struct LcpResult {
   VecX z;               // n
   VecX w;               // n, always A z + b, computed anew from z
   double residual = 0;  // of (z, w), see residual()
-  int pivots = 0;       // exchanges of a row between the sets "z >= 0, w = 0" and "z = 0, w >= 0"
+  int pivots = 0;       // exchanges of a row between the sets "z >= 0, w = 0" and "z = 0, w >= 0"; of an
+                        // iterative method its sweeps, of Newton's its steps
 };
 
-// Throws std::invalid_argument unless A is n by n, b is n long and all their entries are finite.
-void check_arguments(const MatX& A, const VecX& b);
+// Throws std::invalid_argument unless A is n by n, b is n long, all their entries are finite, and the bounds
+// are as Lcp says.
+void check_arguments(const Lcp& problem);
 
 // w = A z + b, each row summed in extended precision and rounded once.
 VecX evaluate(const MatX& A, const VecX& b, const VecX& z);
 
 // How far (z, w) is from complementary, without a unit: max_i |min(s_i z_i, w_i)| / max(|b|, ||A||z||), norms
 // of the largest entry, s_i = max_j |A_ij|; 0 where numerator and denominator are 0. Multiplying A, b or z by
-// a positive number changes nothing. All arguments n long or n by n. A NaN anywhere gives NaN.
-double residual(const MatX& A, const VecX& b, const VecX& z, const VecX& w);
+// a positive number changes nothing. With bounds, the middle one of s_i (z_i - lower_i), w_i and s_i (z_i -
+// upper_i) takes the place of min(s_i z_i, w_i). z and w: n. A NaN anywhere gives NaN.
+double residual(const Lcp& problem, const VecX& z, const VecX& w);
 
 // Whether (z, w) may be called solved. True only if
-//   z >= 0 exactly, and z_i = 0 where s_i = 0 < w_i;
+//   z keeps its bounds exactly, and is at the one that w_i asks for where s_i = 0;
 //   w is A z + b to within r = 8 n epsilon max_i (|A||z|)_i, the round-off of a sum of n products;
-//   max_i |min(s_i z_i, w_i)| <= 1e-6 max|b| + r, and r <= 1e-3 max|b|: a huge z would make any residual
-//   small, because z stands in its denominator, while w loses every digit.
+//   max_i |min(s_i z_i, w_i)| (or its form with bounds) <= 1e-6 max|b| + r, and r <= 1e-3 max|b|: a huge z
+//   would make any residual small, because z stands in its denominator, while w loses every digit.
 // Guarantee: what fails this is never called solved. Limit: it bounds an error in velocities, not in
 // impulses, which need not be unique.
-bool acceptable(const MatX& A, const VecX& b, const VecX& z, const VecX& w);
+bool acceptable(const Lcp& problem, const VecX& z, const VecX& w);
 
 }  // namespace fc::lcp

@@ -31,7 +31,7 @@ RC_GTEST_PROP(DantzigRandom, AgreesWithBruteForce, ()) {
   const int n = *rc::gen::inRange(1, 9);
   const MatX A = any_gram_matrix(n);
   const VecX b = any_whole_numbers(n, -3, 3);
-  const LcpResult result = solve_dantzig(A, b);
+  const LcpResult result = solve_dantzig({A, b});
   const auto z = brute_force(A, b, 1e-9);
   RC_ASSERT(result.status == (z ? Status::solved : Status::no_solution));
   if (!z) return;
@@ -46,7 +46,7 @@ RC_GTEST_PROP(DantzigRandom, SolvesWhatHasASolution, ()) {
   VecX z = any_whole_numbers(n, 0, 3), w = any_whole_numbers(n, 0, 3);
   for (int i = 0; i < n; ++i) (*rc::gen::arbitrary<bool>() ? z : w)[i] = 0;
   const VecX b = w - A * z;
-  const LcpResult result = solve_dantzig(A, b);
+  const LcpResult result = solve_dantzig({A, b});
   RC_ASSERT(result.status == Status::solved);
   RC_ASSERT(result.residual <= 1e-13);
   RC_ASSERT((result.w - w).lpNorm<Eigen::Infinity>() <= 1e-12 * (1 + b.lpNorm<Eigen::Infinity>()));
@@ -82,7 +82,7 @@ void solve_family(const Family& family, double spread, int copies, double differ
       if (kind > 0.6) w[i] = uniform(random);
     }
     const VecX b = w - A * z;
-    const LcpResult result = solve_dantzig(A, b);
+    const LcpResult result = solve_dantzig({A, b});
     ASSERT_EQ(result.status, Status::solved) << family.name << ", draw " << draw;
     ASSERT_LE(result.residual, family.worst_residual) << family.name << ", draw " << draw;
   }

@@ -13,7 +13,7 @@ namespace {
 constexpr double kRounding = 1e-14;  // a few units of round-off of numbers near 1
 
 void expect_solution(const MatX& A, const VecX& b, const VecX& z) {
-  const LcpResult result = solve_dantzig(A, b);
+  const LcpResult result = solve_dantzig({A, b});
   ASSERT_EQ(result.status, Status::solved);
   EXPECT_LE((result.z - z).lpNorm<Eigen::Infinity>(), kRounding) << "z = " << result.z.transpose();
   EXPECT_LE(result.residual, kRounding);
@@ -24,14 +24,14 @@ TEST(Dantzig, SolvesTheWorkedExampleOfTheText) {
 }
 
 TEST(Dantzig, TakesNoPivotIfNothingApproaches) {
-  const LcpResult result = solve_dantzig(MatX{{2, -1}, {-1, 2}}, VecX{{0, 3}});
+  const LcpResult result = solve_dantzig({MatX{{2, -1}, {-1, 2}}, VecX{{0, 3}}});
   EXPECT_EQ(result.status, Status::solved);
   EXPECT_EQ(result.pivots, 0);
   EXPECT_TRUE(result.z.isZero(0));
 }
 
 TEST(Dantzig, SolvesNothing) {
-  EXPECT_EQ(solve_dantzig(MatX(0, 0), VecX(0)).status, Status::solved);
+  EXPECT_EQ(solve_dantzig({MatX(0, 0), VecX(0)}).status, Status::solved);
 }
 
 TEST(Dantzig, SolvesOneRow) {
@@ -42,7 +42,7 @@ TEST(Dantzig, SolvesOneRow) {
 TEST(Dantzig, LetsARowLeaveTheBasis) {
   const MatX A{{1, 0, 0.9}, {0, 1, 0.3}, {0.9, 0.3, 1}};
   const VecX b{{-1, -1, -3}};
-  const LcpResult result = solve_dantzig(A, b);
+  const LcpResult result = solve_dantzig({A, b});
   ASSERT_EQ(result.status, Status::solved);
   EXPECT_EQ(result.z[0], 0);
   EXPECT_GT(result.w[0], 0.1);
@@ -60,7 +60,7 @@ TEST(Dantzig, SolvesRedundantRows) {
     many_b[i] = b[i % 2];
     for (int j = 0; j < 16; ++j) many(i, j) = A(i % 2, j % 2);
   }
-  const LcpResult result = solve_dantzig(many, many_b);
+  const LcpResult result = solve_dantzig({many, many_b});
   ASSERT_EQ(result.status, Status::solved);
   EXPECT_LE(result.residual, kRounding);
   double sum = 0;
@@ -72,7 +72,7 @@ TEST(Dantzig, SolvesRedundantRows) {
 // basis, or this solvable problem looks unsolvable.
 TEST(Dantzig, LetsTheDrivenRowEnterOnATie) {
   expect_solution(MatX{{1, -1}, {-1, 1}}, VecX{{1, -1}}, VecX{{0, 1}});
-  EXPECT_EQ(solve_dantzig(MatX{{1, -1}, {-1, 1}}, VecX{{1, -1}}).pivots, 1);  // and no detour
+  EXPECT_EQ(solve_dantzig({MatX{{1, -1}, {-1, 1}}, VecX{{1, -1}}}).pivots, 1);  // and no detour
 }
 
 TEST(Dantzig, IgnoresZeroRowsThatDoNotApproach) {
@@ -80,32 +80,33 @@ TEST(Dantzig, IgnoresZeroRowsThatDoNotApproach) {
 }
 
 TEST(Dantzig, ProvesThatThereIsNoSolution) {
-  EXPECT_EQ(solve_dantzig(MatX{{0}}, VecX{{-1}}).status, Status::no_solution);
-  EXPECT_EQ(solve_dantzig(MatX{{1, -1}, {-1, 1}}, VecX{{-2, 1}}).status, Status::no_solution);
-  EXPECT_EQ(solve_dantzig(MatX{{1, -1}, {-1, 1}} * 1e-8, VecX{{-2, 1}} * 1e5).status, Status::no_solution);
+  EXPECT_EQ(solve_dantzig({MatX{{0}}, VecX{{-1}}}).status, Status::no_solution);
+  EXPECT_EQ(solve_dantzig({MatX{{1, -1}, {-1, 1}}, VecX{{-2, 1}}}).status, Status::no_solution);
+  EXPECT_EQ(solve_dantzig({MatX{{1, -1}, {-1, 1}} * 1e-8, VecX{{-2, 1}} * 1e5}).status, Status::no_solution);
 }
 
 TEST(Dantzig, DoesNotTakeRoundOffInTheVectorForAProof) {
   // Held between two walls: the rows must add up to zero, and miss it by round-off.
-  const LcpResult result = solve_dantzig(MatX{{1, -1}, {-1, 1}}, VecX{{-1, 1 - 2e-16}});
+  const LcpResult result = solve_dantzig({MatX{{1, -1}, {-1, 1}}, VecX{{-1, 1 - 2e-16}}});
   EXPECT_EQ(result.status, Status::solved);
 }
 
 TEST(Dantzig, RefusesMatricesThatItIsNotMadeFor) {
-  EXPECT_EQ(solve_dantzig(MatX{{1, 0.5}, {0, 1}}, VecX{{-1, -1}}).status, Status::unsuited);  // not symmetric
-  EXPECT_EQ(solve_dantzig(MatX{{-1}}, VecX{{-1}}).status, Status::unsuited);
-  EXPECT_EQ(solve_dantzig(MatX{{0, 1}, {1, 0}}, VecX{{-1, -1}}).status, Status::unsuited);
-  EXPECT_EQ(solve_dantzig(MatX{{1, -2}, {-2, 1}}, VecX{{1, -1}}).status,
+  EXPECT_EQ(solve_dantzig({MatX{{1, 0.5}, {0, 1}}, VecX{{-1, -1}}}).status,
+            Status::unsuited);  // not symmetric
+  EXPECT_EQ(solve_dantzig({MatX{{-1}}, VecX{{-1}}}).status, Status::unsuited);
+  EXPECT_EQ(solve_dantzig({MatX{{0, 1}, {1, 0}}, VecX{{-1, -1}}}).status, Status::unsuited);
+  EXPECT_EQ(solve_dantzig({MatX{{1, -2}, {-2, 1}}, VecX{{1, -1}}}).status,
             Status::unsuited);  // an eigenvalue of -1
 }
 
 // The proof holds for any matrix, so it may be found before the matrix is found out.
 TEST(Dantzig, ProvesThatAnIndefiniteProblemHasNoSolution) {
-  EXPECT_EQ(solve_dantzig(MatX{{1, -2}, {-2, 1}}, VecX{{-1, -1}}).status, Status::no_solution);
+  EXPECT_EQ(solve_dantzig({MatX{{1, -2}, {-2, 1}}, VecX{{-1, -1}}}).status, Status::no_solution);
 }
 
 TEST(Dantzig, ReportsThePivotLimit) {
-  const LcpResult result = solve_dantzig(MatX::Identity(3, 3), VecX::Constant(3, -1), {.max_pivots = 2});
+  const LcpResult result = solve_dantzig({MatX::Identity(3, 3), VecX::Constant(3, -1)}, {.max_pivots = 2});
   EXPECT_EQ(result.status, Status::limit);
   EXPECT_TRUE(result.z.allFinite());
 }
@@ -121,28 +122,28 @@ TEST(Dantzig, EndsOnAProblemThatTakesTooManyPivots) {
     for (int j = i; j < n; ++j) b[i] -= std::exp2(j);
   }
   const MatX A = M * M.transpose();
-  const LcpResult result = solve_dantzig(A, b);
+  const LcpResult result = solve_dantzig({A, b});
   EXPECT_EQ(result.status, Status::limit);
   EXPECT_LE(result.pivots, 100 + 50 * n);
   EXPECT_TRUE(result.z.allFinite());
-  const LcpResult patient = solve_dantzig(A, b, {.max_pivots = 100000});
+  const LcpResult patient = solve_dantzig({A, b}, {.max_pivots = 100000});
   EXPECT_EQ(patient.status, Status::solved);
   EXPECT_GT(patient.pivots, 10000);
 }
 
 TEST(Dantzig, RefusesCallersMistakes) {
-  EXPECT_THROW(solve_dantzig(MatX::Zero(2, 3), VecX::Zero(2)), std::invalid_argument);
-  EXPECT_THROW(solve_dantzig(MatX::Identity(2, 2), VecX::Zero(3)), std::invalid_argument);
+  EXPECT_THROW(solve_dantzig({MatX::Zero(2, 3), VecX::Zero(2)}), std::invalid_argument);
+  EXPECT_THROW(solve_dantzig({MatX::Identity(2, 2), VecX::Zero(3)}), std::invalid_argument);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(solve_dantzig(MatX{{nan}}, VecX{{1}}), std::invalid_argument);
-  EXPECT_THROW(solve_dantzig(MatX{{1}}, VecX{{nan}}), std::invalid_argument);
+  EXPECT_THROW(solve_dantzig({MatX{{nan}}, VecX{{1}}}), std::invalid_argument);
+  EXPECT_THROW(solve_dantzig({MatX{{1}}, VecX{{nan}}}), std::invalid_argument);
 }
 
 // Near the ends of what a double can hold, an answer is either right or refused, and always finite.
 TEST(Dantzig, NeverReturnsANumberThatIsNotFinite) {
   for (const double a : {1e-300, 1.0, 1e300}) {
     for (const double b : {-1e-300, -1.0, -1e300}) {
-      const LcpResult result = solve_dantzig(MatX{{a, 0}, {0, 1}}, VecX{{b, -1}});
+      const LcpResult result = solve_dantzig({MatX{{a, 0}, {0, 1}}, VecX{{b, -1}}});
       EXPECT_TRUE(result.z.allFinite() && result.w.allFinite()) << a << ' ' << b;
       EXPECT_FALSE(std::isnan(result.residual)) << a << ' ' << b;
       EXPECT_TRUE(result.status != Status::solved || result.residual <= kRounding) << a << ' ' << b;
@@ -153,10 +154,10 @@ TEST(Dantzig, NeverReturnsANumberThatIsNotFinite) {
 TEST(Dantzig, DoesNotCareForUnits) {
   const MatX A{{2, -1, 0.5}, {-1, 2, 0}, {0.5, 0, 1}};
   const VecX b{{-2, 0, -0.5}};
-  const LcpResult expected = solve_dantzig(A, b);
+  const LcpResult expected = solve_dantzig({A, b});
   ASSERT_EQ(expected.status, Status::solved);
   for (const double unit : {0x1p-40, 0x1p40}) {  // powers of two: the same bits are due
-    const LcpResult result = solve_dantzig(A * unit, b);
+    const LcpResult result = solve_dantzig({A * unit, b});
     EXPECT_EQ(result.w, expected.w);
     EXPECT_EQ(result.z * unit, expected.z);
   }

@@ -198,9 +198,9 @@ TEST(Impact, MixedRestitutionWithoutSolutionFallsBackToTheSmallest) {
 TEST(Impact, ThatFailsLeavesTheBodiesAlone) {
   std::vector<RigidBody> bodies{ball({0, 0, 0}, {1, 0, 0}), ball({1, 0, 0}, {0, 0, 0})};
   const std::vector<RigidBody> before = bodies;
-  const auto wrong = [](const MatX& A, const VecX& b) {  // claims to have solved it
-    LcpResult result{Status::solved, VecX::Constant(b.size(), 0.1), VecX(), 0, 0};
-    result.w = evaluate(A, b, result.z);
+  const auto wrong = [](const Lcp& problem) {  // claims to have solved it
+    LcpResult result{Status::solved, VecX::Constant(problem.size(), 0.1), VecX(), 0, 0};
+    result.w = evaluate(problem.A, problem.b, result.z);
     return result;
   };
   const ImpactResult result =

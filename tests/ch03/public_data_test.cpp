@@ -24,7 +24,7 @@ fs::path data_folder() {
 void check(const fs::path& base) {
   const MatX A = read_matrix_market(base.string() + ".A.mtx");
   const VecX b = read_matrix_market(base.string() + ".b.mtx");
-  const LcpResult result = solve_dantzig(A, b);
+  const LcpResult result = solve_dantzig({A, b});
   const double asymmetry = (A - A.transpose()).lpNorm<Eigen::Infinity>() / A.lpNorm<Eigen::Infinity>();
   if (asymmetry > 1e-8) {
     EXPECT_EQ(result.status, Status::unsuited);

@@ -1,0 +1,38 @@
+// All solvers of the chapter behind one function: problem in, result out, and nobody's word is taken for it.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "ch03_impulse_lcp/problem.hpp"
+
+namespace fc::lcp {
+
+enum class Method {
+  dantzig,         // dantzig.hpp: exact, symmetric positive semidefinite and P-matrices, the default
+  lemke,           // lemke.hpp: exact, the widest class of matrices
+  pgs,             // projected_gauss_seidel.hpp: iterative, what most engines use
+  interior_point,  // interior_point.hpp: Newton's method on a smoothed problem, positive semidefinite
+                   // matrices
+};
+
+inline constexpr std::array<Method, 4> kMethods = {Method::dantzig, Method::lemke, Method::pgs,
+                                                   Method::interior_point};
+
+// The words of `solver.method` and of solvers.csv: "dantzig", "lemke", "pgs", "interior_point".
+std::string_view name(Method method);
+
+struct SolveOptions {
+  int limit = 0;         // pivots, sweeps or steps; 0: the method's own, stated in its header
+  double tolerance = 0;  // the residual at which an iterative method stops; 0: the method's own
+  const VecX* start =
+      nullptr;  // n, a guess of z (the last step's, say); methods that cannot use it ignore it
+};
+
+// Solves the problem by the method. Guarantee: `solved` only if the result passed acceptable(); a method that
+// cannot have such a problem (bounds, a matrix outside its class) says `unsuited`. Throws
+// std::invalid_argument for sizes that do not match, entries that are not finite and bounds that are not as
+// Lcp says.
+LcpResult solve(const Lcp& problem, Method method = Method::dantzig, const SolveOptions& options = {});
+
+}  // namespace fc::lcp
