@@ -1,5 +1,7 @@
-// Dantzig's principal pivoting method for the LCP of frictionless impacts.
+// Dantzig's principal pivoting method for the LCP of impacts.
 #pragma once
+
+#include <memory>
 
 #include "ch03_impulse_lcp/problem.hpp"
 
@@ -10,22 +12,47 @@ struct DantzigOptions {
   // there are families whose number of pivots doubles with every row (Murty 1978), and no limit would help
   // those.
   int max_pivots = 0;
+  // n, a guess of z, the last step's for example: the solve begins with the rows in the basis that it has
+  // within the bounds. A wrong guess costs time, never the answer. Null: none.
+  const VecX* start = nullptr;
+  // From 20 rows on, begin with a guess of its own: a basis factored at once. False: row by row from nothing.
+  bool predict = true;
 };
 
-// Solves w = A z + b, z >= 0, w >= 0, z'w = 0 for a symmetric positive semidefinite A (the paper, section 4,
-// names the problem; the method is Dantzig's, in Cottle and Dantzig 1968, as Baraff 1994 uses it for
-// contacts).
-//   A: n by n, any rank; zero rows are allowed. Units do not matter: rows are scaled by powers of two inside.
+// Solves w = A z + b, z >= 0, w >= 0, z'w = 0, or the form with bounds, for a symmetric positive semidefinite
+// A of any rank, or for a P-matrix (all principal minors positive), which need not be symmetric. (The paper,
+// section 4, names the problem; the method is Dantzig's, in Cottle and Dantzig 1968, as Baraff 1994 uses it
+// for contacts.)
+//   A: n by n; zero rows are allowed. Units do not matter: rows are scaled by powers of two inside.
 //   b: n.
-// One row after the other is driven to w >= 0 by raising its z, while all rows done before stay
-// complementary. Status: solved       the result passed acceptable(); the residual is then at round-off level
-// unless A is nearly singular;
-//         no_solution  a certificate was found and checked against A itself;
-//         limit        too many pivots, or the end result failed acceptable();
-//         unsuited     A is not symmetric, or was found not to be positive semidefinite.
+// One row after the other is driven to where w_i allows it to stay by changing its z, while all rows done
+// before stay complementary. Status:
+//   solved       the result passed acceptable(); the residual is then at round-off level unless A is nearly
+//   singular; no_solution  a certificate was found and checked against A itself; limit        too many
+//   pivots, or the end result failed acceptable(); unsuited     A was found to be neither positive
+//   semidefinite nor a P-matrix.
 // Where A is singular, w is unique but z is not: z is then one of the solutions, at most rank(A) of its
-// entries are not 0. The order of the rows may select another z. The cost is O(n^2) for each pivot. Throws
-// std::invalid_argument for sizes that do not match and for entries that are not finite.
+// entries are not at a bound. The order of the rows and the guess may select another z. The cost is O(n^2)
+// for each pivot.
+//
+// An object keeps its memory: after the first solve of a size it takes none from the heap for problems of up
+// to that size and fewer than 20 rows that succeed at the first attempt.
+class DantzigSolver {
+ public:
+  DantzigSolver();
+  ~DantzigSolver();
+  DantzigSolver(DantzigSolver&&) noexcept;
+  DantzigSolver& operator=(DantzigSolver&&) noexcept;
+
+  // Throws std::invalid_argument as check_arguments() does.
+  void solve(const Lcp& problem, const DantzigOptions& options, LcpResult& result);
+
+ private:
+  struct Memory;
+  std::unique_ptr<Memory> memory_;
+};
+
+// The same, once.
 LcpResult solve_dantzig(const Lcp& problem, const DantzigOptions& options = {});
 
 }  // namespace fc::lcp

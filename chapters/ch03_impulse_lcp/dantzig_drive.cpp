@@ -1,8 +1,8 @@
-// How one row is driven to w >= 0: direction, ratio test, exchange.
+// How one row is driven to where its w allows it to stay: direction, ratio test, exchange.
 #include <algorithm>
 #include <cmath>
 
-#include "ch03_impulse_lcp/dantzig_solver.hpp"
+#include "ch03_impulse_lcp/dantzig_core.hpp"
 
 namespace fc::lcp::detail {
 namespace {
@@ -10,7 +10,7 @@ namespace {
 // A Schur complement below minus this proves an eigenvalue below zero that no round-off explains: `unsuited`
 // if the row cannot be driven without it.
 constexpr double kIndefinite = 1e-6;
-// A certificate y, |y|_1 = 1, of infeasibility counts if (A y)_i <= kCertificateSlack for all i and b'y is
+// A certificate y, |y|_1 = 1, of infeasibility counts if (A'y)_i <= kCertificateSlack for all i and b'y is
 // below -kCertificateGap |b|'y. Smaller gaps may be round-off in b (a ball held between two walls); they are
 // left to acceptable().
 constexpr double kCertificateSlack = 1e-10;
@@ -18,19 +18,53 @@ constexpr double kCertificateGap = 1e-9;
 
 }  // namespace
 
-// The direction that raises z_d by 1 and keeps w = 0 in the basis: A_CC dz_C = -A_Cd; and what it does to w.
-void Dantzig::set_direction(int d) {
+// The direction that changes z_d by `sign` and keeps w = 0 in the basis: A_CC dz_C = -sign A_Cd; and what it
+// does to the w of the rows at a bound. Follows factor_.schur(d).
+template <class Real>
+void DantzigCore<Real>::set_direction(int d, Real sign) {
   const int k = factor_.size();
-  for (int p = 0; p < k; ++p) basis_dz_[p] = -A_(factor_.row(p), d);
-  factor_.solve(basis_dz_.head(k));
-  dz_.setZero();
-  dz_[d] = 1;
-  dw_ = A_.col(d);
+  factor_.candidate_column(basis_.data());
+  extent(dz_).setZero();
+  dz_[d] = sign;
+  dz_sum_ = 1;
   for (int p = 0; p < k; ++p) {
-    dz_[factor_.row(p)] = basis_dz_[p];
-    dw_.noalias() += basis_dz_[p] * A_.col(factor_.row(p));
+    dz_[factor_.row(p)] = -sign * basis_[p];
+    dz_sum_ += std::abs(basis_[p]);
   }
-  for (const int i : factor_.rows()) dw_[i] = 0;  // by construction; what is left is round-off
+  extent(dw_).setZero();
+  outside_.clear();
+  for (int i = first_; i < first_ + extent_; ++i) {
+    if (i != d && (place(i) == Place::at_lower || place(i) == Place::at_upper)) outside_.push_back(i);
+  }
+  // By rows or by columns, whichever are fewer.
+  if (static_cast<int>(outside_.size()) <= k) {
+    const Matrix& rows = symmetric_ ? A_ : transposed_;
+    for (const int i : outside_) dw_[i] = rows.col(i).segment(first_, extent_).dot(extent(dz_));
+  } else {
+    extent(dw_) = sign * A_.col(d).segment(first_, extent_);
+    for (int p = 0; p < k; ++p)
+      extent(dw_) -= (sign * basis_[p]) * A_.col(factor_.row(p)).segment(first_, extent_);
+    for (const int i : factor_.rows()) dw_[i] = 0;  // by construction; what is left is round-off
+  }
+}
+
+// Calls visit(row, position in the basis or -1, distance to what stops it, speed, slack of the distance) for
+// each row that the direction moves towards a place where it must be exchanged.
+template <class Real>
+template <class Visit>
+void DantzigCore<Real>::each_candidate(Visit&& visit) const {
+  const Real slope_rounding = rounding_ * dz_sum_, z_rounding = z_tolerance();
+  for (int p = 0; p < factor_.size(); ++p) {
+    const int i = factor_.row(p);
+    if (dz_[i] < -slope_rounding && lower_[i] > -kInfinity)
+      visit(i, p, z_[i] - lower_[i], -dz_[i], z_rounding);
+    if (dz_[i] > slope_rounding && upper_[i] < kInfinity) visit(i, p, upper_[i] - z_[i], dz_[i], z_rounding);
+  }
+  for (const int i : outside_) {
+    if (barred_[static_cast<std::size_t>(i)]) continue;
+    const Real side = place(i) == Place::at_lower ? 1 : -1;
+    if (side * dw_[i] < -slope_rounding) visit(i, -1, side * w_[i], -side * dw_[i], w_tolerance(i));
+  }
 }
 
 // The row that stops the drive of d first. Ratio test in two passes (Harris 1973): the shortest step with
@@ -38,133 +72,146 @@ void Dantzig::set_direction(int d) {
 // enter the basis, or a solvable singular problem looks unsolvable), or else the row with the steepest slope,
 // whose exchange is the best conditioned. Many zero steps in a row could be a cycle of ties: then the
 // smallest index decides, which cannot cycle (Chang 1979).
-Dantzig::Blocking Dantzig::blocking_row(int d, double schur) {
-  const double slope_rounding = rounding_ * dz_.lpNorm<1>();
-  const double z_rounding = z_tolerance();
-  const bool careful = zero_steps_ > static_cast<int>(b_.size()) + 4;
-
-  const auto each_candidate = [&](auto&& visit) {
-    for (int p = 0; p < factor_.size(); ++p) {
-      const int i = factor_.row(p);
-      if (dz_[i] < -slope_rounding) visit(i, p, std::max(0.0, z_[i]), -dz_[i], z_rounding);
-    }
-    for (int i = 0; i < static_cast<int>(b_.size()); ++i) {
-      const auto u = static_cast<std::size_t>(i);
-      if (i == d || place_[u] != Place::outside || barred_[u]) continue;
-      if (dw_[i] < -slope_rounding) visit(i, -1, std::max(0.0, w_[i]), -dw_[i], w_tolerance(i));
-    }
-  };
-
-  double longest = kInfinity;
-  each_candidate([&](int, int, double value, double slope, double slack) {
-    longest = std::min(longest, (value + (careful ? 0.0 : slack)) / slope);
+template <class Real>
+typename DantzigCore<Real>::Blocking DantzigCore<Real>::blocking_row(int d, Real schur) {
+  const bool careful = zero_steps_ > n_ + 4;
+  Real longest = kInfinity;
+  each_candidate([&](int, int, Real distance, Real speed, Real slack) {
+    longest = std::min(longest, (std::max<Real>(0, distance) + (careful ? 0 : slack)) / speed);
   });
-  const double own_step = schur > rank_rounding_ ? std::max(0.0, -w_[d] / schur) : kInfinity;
-  if (own_step <= longest && own_step < kInfinity) return {d, -1, own_step};
+  const Real to_zero = schur > rank_rounding_ ? std::abs(w_[d]) / schur : kInfinity;
+  const Real to_bound = dz_[d] > 0 ? upper_[d] - z_[d] : z_[d] - lower_[d];
+  if (to_zero <= longest && to_zero <= to_bound && to_zero < kInfinity) return {d, -1, to_zero, false};
+  if (to_bound <= longest && to_bound < kInfinity) return {d, -1, to_bound, true};
 
   Blocking best;
-  double best_slope = 0;
-  each_candidate([&](int i, int p, double value, double slope, double) {
-    if (value / slope > longest) return;
-    if (careful ? (best.row < 0 || i < best.row) : slope > best_slope) {
-      best = {i, p, value / slope};
-      best_slope = slope;
+  Real best_speed = 0;
+  each_candidate([&](int i, int p, Real distance, Real speed, Real) {
+    const Real step = std::max<Real>(0, distance) / speed;
+    if (step > longest) return;
+    if (careful ? (best.row < 0 || i < best.row) : speed > best_speed) {
+      best = {i, p, step, false};
+      best_speed = speed;
     }
   });
   return best;
 }
 
-void Dantzig::advance(int d, double step) {
+template <class Real>
+void DantzigCore<Real>::advance(int d, Real step) {
   zero_steps_ = step * std::abs(dw_[d]) > w_tolerance(d) ? 0 : zero_steps_ + 1;
-  z_ += step * dz_;
-  w_ += step * dw_;
+  extent(z_) += step * extent(dz_);
+  extent(w_) += step * extent(dw_);
+  z_sum_ = extent(z_).cwiseAbs().sum();
 }
 
-void Dantzig::enter(int i) {
+template <class Real>
+void DantzigCore<Real>::enter(int i) {
   factor_.enter();
-  place_[static_cast<std::size_t>(i)] = Place::basis;
+  place(i) = Place::basis;
   w_[i] = 0;
   ++pivots_;
 }
 
-void Dantzig::leave(int position) {
+template <class Real>
+void DantzigCore<Real>::leave(int position, bool upper) {
   const int i = factor_.row(position);
   factor_.leave(position);
-  place_[static_cast<std::size_t>(i)] = Place::outside;
-  z_[i] = 0;
+  place(i) = upper ? Place::at_upper : Place::at_lower;
+  z_[i] = upper ? upper_[i] : lower_[i];
   ++pivots_;
 }
 
-// Whether the direction, along which nothing stops row d, proves that no solution exists: y = dz >= 0 with
-// A'y <= 0 and b'y < 0 contradicts w >= 0, since y'w = (A'y)'z + y'b < 0 for every z >= 0. Checked against
-// the matrix as given.
-bool Dantzig::proves_infeasible(int d) const {
-  VecX y = dz_.cwiseMax(0.0);
-  y[d] = 1;
+// Whether the direction, along which nothing stops row d, proves that no solution exists: with y = dz, of
+// which only rows without that bound have a part, every solution would have y'w >= 0; but y'w = (A'y)'z +
+// b'y, and this is negative for every z if b'y < 0 and A'y <= 0 (A'y = 0 where there are other bounds than z
+// >= 0). Checked against the matrix as given.
+template <class Real>
+bool DantzigCore<Real>::proves_infeasible(int d) const {
+  VecX y = VecX::Zero(n_);
+  for (int i = first_; i < first_ + extent_; ++i) {
+    const bool free_way = dz_[i] > 0 ? upper_[i] == kInfinity : lower_[i] == -kInfinity;
+    if (free_way) y[i] = static_cast<double>(dz_[i]);
+  }
+  y[d] = static_cast<double>(dz_[d]);
   y /= y.lpNorm<1>();
-  const VecX y_given = y.cwiseQuotient(scale_);
-  const VecX Ay = (A_given_.transpose() * y_given).cwiseQuotient(scale_);
-  const double gap = b_given_.dot(y_given);
-  return Ay.maxCoeff() <= kCertificateSlack && gap < -kCertificateGap * b_given_.cwiseAbs().dot(y_given);
+  const VecX inverse_scale = inverse_scale_.head(n_).template cast<double>();
+  const VecX y_given = y.cwiseProduct(inverse_scale);
+  const VecX Ay = (problem_->A.transpose() * y_given).cwiseProduct(inverse_scale);
+  const double largest = problem_->boxed() ? Ay.lpNorm<Eigen::Infinity>() : Ay.maxCoeff();
+  const VecX& b = problem_->b;
+  return largest <= kCertificateSlack &&
+         b.dot(y_given) < -kCertificateGap * b.cwiseAbs().dot(y_given.cwiseAbs());
 }
 
 // Row d has reached w_d = 0 to within round-off without being the one that blocked: puts it where it belongs.
 // If it depends on the basis, the impulse is moved along the null direction, which changes no velocity, until
-// d or a row of the basis has none left. False if that is impossible.
-void Dantzig::settle(int d) {
-  place_[static_cast<std::size_t>(d)] = Place::outside;
-  if (z_[d] <= 0) {
-    z_[d] = 0;
+// d or a row of the basis is at a bound.
+template <class Real>
+void DantzigCore<Real>::settle(int d) {
+  place(d) = Place::waiting;
+  if (z_[d] <= lower_[d] || z_[d] >= upper_[d]) {
+    place(d) = z_[d] <= lower_[d] ? Place::at_lower : Place::at_upper;
+    z_[d] = place(d) == Place::at_lower ? lower_[d] : upper_[d];
     return;
   }
-  if (factor_.schur(d) > rank_rounding_) {
+  const Real schur = factor_.schur(d);
+  if (schur > rank_rounding_) {
     enter(d);
     return;
   }
-  set_direction(d);
-  double step = z_[d];
+  const bool down = lower_[d] > -kInfinity;
+  if (!down && upper_[d] == kInfinity) return;  // no bound to go to: its w stays 0 as long as the basis does
+  set_direction(d, down ? -1 : 1);
+  Real step = down ? z_[d] - lower_[d] : upper_[d] - z_[d];
   int position = -1;
   for (int p = 0; p < factor_.size(); ++p) {
     const int i = factor_.row(p);
-    if (dz_[i] > rounding_ * dz_.lpNorm<1>() && z_[i] / dz_[i] < step) {
-      step = std::max(0.0, z_[i] / dz_[i]);
+    if (std::abs(dz_[i]) <= rounding_ * dz_sum_) continue;
+    const Real room = std::max<Real>(0, dz_[i] < 0 ? z_[i] - lower_[i] : upper_[i] - z_[i]);
+    if (room < step * std::abs(dz_[i])) {
+      step = room / std::abs(dz_[i]);
       position = p;
     }
   }
-  z_ -= step * dz_;
-  w_ -= step * dw_;
-  if (position < 0) {
-    z_[d] = 0;
-    return;
+  advance(d, step);
+  if (position >= 0) {
+    leave(position, dz_[factor_.row(position)] > 0);
+    if (factor_.schur(d) > rank_rounding_) {
+      enter(d);
+      return;
+    }
   }
-  leave(position);
-  if (factor_.schur(d) > rank_rounding_) {
-    enter(d);
-  } else {
-    z_[d] = 0;
-  }
+  z_[d] = down ? lower_[d] : upper_[d];
+  place(d) = down ? Place::at_lower : Place::at_upper;
 }
 
-// Raises z_d until w_d >= 0, keeping every row that is done complementary.
+// Changes z_d until w_d allows it to stay, keeping every row that is done complementary.
 // ANCHOR: drive
-Drive Dantzig::drive(int d) {
+template <class Real>
+Drive DantzigCore<Real>::drive(int d) {
   std::fill(barred_.begin(), barred_.end(), 0);
   zero_steps_ = 0;
-  while (w_[d] < -w_tolerance(d)) {
+  while (violated(d)) {
     if (pivots_ >= max_pivots_) return Drive::limit;
-    const double schur = factor_.schur(d);
+    const Real schur = factor_.schur(d);
     lowest_schur_ = std::min(lowest_schur_, schur);
-    set_direction(d);
+    set_direction(d, w_[d] < 0 ? 1 : -1);
+    dw_[d] = dz_[d] * schur;
     const Blocking blocking = blocking_row(d, schur);
     if (blocking.row < 0) {
       if (proves_infeasible(d)) return Drive::no_solution;
       // Either A has a negative eigenvalue, or b leaves the range of A by a little more than round-off.
-      if (schur < -kIndefinite) return Drive::unsuited;
+      if (schur < -kIndefinite || !symmetric_) return Drive::unsuited;
       settle(d);
       return Drive::done;
     }
     if (blocking.row == d) {
       advance(d, blocking.step);
+      if (blocking.at_bound) {
+        z_[d] = dz_[d] > 0 ? upper_[d] : lower_[d];
+        break;
+      }
       enter(d);
       return Drive::done;
     }
@@ -176,16 +223,18 @@ Drive Dantzig::drive(int d) {
         continue;
       }
       advance(d, blocking.step);
-      factor_.schur(blocking.row);
       enter(blocking.row);
     } else {
       advance(d, blocking.step);
-      leave(blocking.position);
+      leave(blocking.position, dz_[blocking.row] > 0);
     }
   }
   settle(d);
   return Drive::done;
 }
 // ANCHOR_END: drive
+
+template class DantzigCore<double>;
+template class DantzigCore<long double>;
 
 }  // namespace fc::lcp::detail

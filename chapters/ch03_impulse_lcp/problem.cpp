@@ -9,13 +9,6 @@
 namespace fc::lcp {
 namespace {
 
-// What residual() and acceptable() share.
-struct Measures {
-  double violation;  // max_i |min(s_i z_i, w_i)|
-  double b_size;     // max_i |b_i|
-  double az_size;    // max_i (|A||z|)_i
-};
-
 // Like std::max, but a NaN on either side stays.
 double nan_max(double a, double b) {
   return std::isnan(a) || a >= b ? a : b;
@@ -30,22 +23,22 @@ double violation(double scale, double z, double w, double low, double high) {
   return std::abs(std::max(std::min(above, w), std::min(std::max(above, w), below)));
 }
 
-Measures measure(const Lcp& problem, const VecX& z, const VecX& w) {
-  const MatX& A = problem.A;
-  const VecX& b = problem.b;
-  Measures m{0, 0, 0};
-  for (Eigen::Index i = 0; i < b.size(); ++i) {
-    double scale = 0, az = 0;
-    for (Eigen::Index j = 0; j < b.size(); ++j) {
-      scale = std::max(scale, std::abs(A(i, j)));
-      az += std::abs(A(i, j)) * std::abs(z[j]);
-    }
-    m.violation = nan_max(m.violation, violation(scale, z[i], w[i], problem.low(i), problem.high(i)));
-    m.b_size = nan_max(m.b_size, std::abs(b[i]));
-    m.az_size = nan_max(m.az_size, az);
-  }
-  return m;
+// residual() of these measures.
+template <class Measures>
+double ratio(const Measures& m) {
+  if (m.violation == 0) return 0;
+  return std::isinf(m.violation) ? m.violation : m.violation / nan_max(m.b_size, m.az_size);
 }
+
+template <class Measures>
+bool small_enough(const Measures& m, Eigen::Index n) {
+  const double rounding = 8 * static_cast<double>(n) * std::numeric_limits<double>::epsilon() * m.az_size;
+  // An overflow makes a measure infinite; written so that the answer is then "no".
+  return m.in_bounds && rounding <= 1e-3 * m.b_size && m.violation <= 1e-6 * m.b_size + rounding;
+}
+
+// Where |A||z| is so many times |b|, the digits that cancel in A z + b are worth a longer sum.
+constexpr double kCancels = 16;
 
 }  // namespace
 
@@ -93,20 +86,81 @@ void check_arguments(const Lcp& problem) {
 }
 
 VecX evaluate(const MatX& A, const VecX& b, const VecX& z) {
-  VecX w(b.size());
-  for (Eigen::Index i = 0; i < b.size(); ++i) {
-    long double sum = b[i];
-    for (Eigen::Index j = 0; j < b.size(); ++j) sum += static_cast<long double>(A(i, j)) * z[j];
-    w[i] = static_cast<double>(sum);
+  // Four rows at a time: their entries of a column are neighbours in memory.
+  const Eigen::Index n = b.size();
+  VecX w(n);
+  for (Eigen::Index i = 0; i < n; i += 4) {
+    const Eigen::Index rows = std::min<Eigen::Index>(4, n - i);
+    long double sum[4] = {0, 0, 0, 0};
+    for (Eigen::Index r = 0; r < rows; ++r) sum[r] = b[i + r];
+    for (Eigen::Index j = 0; j < n; ++j) {
+      if (z[j] == 0) continue;
+      const double* const column = A.data() + j * n + i;
+      const long double zj = z[j];
+      if (rows == 4) {
+        for (int r = 0; r < 4; ++r) sum[r] += column[r] * zj;
+      } else {
+        for (Eigen::Index r = 0; r < rows; ++r) sum[r] += column[r] * zj;
+      }
+    }
+    for (Eigen::Index r = 0; r < rows; ++r) w[i + r] = static_cast<double>(sum[r]);
   }
   return w;
 }
 
-double residual(const Lcp& problem, const VecX& z, const VecX& w) {
+// Column by column, as A lies in memory.
+void Verifier::sum_rows(const Lcp& problem, const VecX& z) {
+  const Eigen::Index n = problem.size();
+  for (VecX* v : {&scale_, &products_, &w_}) {
+    if (v->size() < n) v->resize(n);
+  }
+  double *const scale = scale_.data(), *const products = products_.data(), *const w = w_.data();
+  std::fill(scale, scale + n, 0.0);
+  std::fill(products, products + n, 0.0);
+  std::copy(problem.b.data(), problem.b.data() + n, w);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const double* const column = problem.A.data() + j * n;
+    const double zj = z[j], size = std::abs(zj);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const double a = std::abs(column[i]);
+      scale[i] = scale[i] < a ? a : scale[i];
+      products[i] += a * size;
+      w[i] += column[i] * zj;
+    }
+  }
+}
+
+Verifier::Measures Verifier::measure(const Lcp& problem, const VecX& z, const VecX& w) const {
+  Measures m;
+  for (Eigen::Index i = 0; i < problem.size(); ++i) {
+    const double low = problem.low(i), high = problem.high(i);
+    m.violation = nan_max(m.violation, violation(scale_[i], z[i], w[i], low, high));
+    m.b_size = nan_max(m.b_size, std::abs(problem.b[i]));
+    m.az_size = nan_max(m.az_size, products_[i]);
+    if (!(z[i] >= low && z[i] <= high)) m.in_bounds = false;
+    if (scale_[i] == 0 && ((w[i] > 0 && z[i] != low) || (w[i] < 0 && z[i] != high))) m.in_bounds = false;
+  }
+  return m;
+}
+
+Verdict Verifier::judge(const Lcp& problem, const VecX& z, VecX& w) {
+  sum_rows(problem, z);
+  const Eigen::Index n = problem.size();
+  const bool cancels =
+      n > 0 && !(products_.head(n).maxCoeff() <= kCancels * problem.b.lpNorm<Eigen::Infinity>());
+  if (cancels) {
+    w = evaluate(problem.A, problem.b, z);
+  } else {
+    w = w_.head(n);
+  }
   const Measures m = measure(problem, z, w);
-  if (m.violation == 0) return 0;
-  const double size = nan_max(m.b_size, m.az_size);
-  return std::isinf(m.violation) ? m.violation : m.violation / size;
+  return {ratio(m), small_enough(m, n)};
+}
+
+double residual(const Lcp& problem, const VecX& z, const VecX& w) {
+  Verifier verifier;
+  verifier.sum_rows(problem, z);
+  return ratio(verifier.measure(problem, z, w));
 }
 
 bool acceptable(const Lcp& problem, const VecX& z, const VecX& w) {
@@ -117,17 +171,13 @@ bool acceptable(const Lcp& problem, const VecX& z, const VecX& w) {
   if (!A.allFinite() || !b.allFinite() || !z.allFinite() || !w.allFinite()) return false;
   if (n == 0) return true;
 
-  const Measures m = measure(problem, z, w);
-  const double rounding = 8 * static_cast<double>(n) * std::numeric_limits<double>::epsilon() * m.az_size;
-  // An overflow makes a measure infinite; written so that the answer is then "no".
-  if (!(rounding <= 1e-3 * m.b_size)) return false;
-  if (!(m.violation <= 1e-6 * m.b_size + rounding)) return false;
-
+  Verifier verifier;
+  verifier.sum_rows(problem, z);
+  const Verifier::Measures m = verifier.measure(problem, z, w);
+  if (!small_enough(m, n)) return false;
   const VecX again = evaluate(A, b, z);
+  const double rounding = 8 * static_cast<double>(n) * std::numeric_limits<double>::epsilon() * m.az_size;
   for (Eigen::Index i = 0; i < n; ++i) {
-    const double low = problem.low(i), high = problem.high(i);
-    if (!(z[i] >= low && z[i] <= high)) return false;
-    if (A.row(i).isZero(0) && ((w[i] > 0 && z[i] != low) || (w[i] < 0 && z[i] != high))) return false;
     // Stated in the header: the round-off of the products, and of b itself, which is one more term of the
     // sum.
     const double sum_rounding = rounding + 8 * std::numeric_limits<double>::epsilon() * std::abs(b[i]);

@@ -75,4 +75,31 @@ double residual(const Lcp& problem, const VecX& z, const VecX& w);
 // impulses, which need not be unique.
 bool acceptable(const Lcp& problem, const VecX& z, const VecX& w);
 
+// What a solver asks at its end; residual() and acceptable() at once, without memory from the heap once it
+// has met problems as large.
+struct Verdict {
+  double residual = 0;
+  bool acceptable = false;
+};
+class Verifier {
+ public:
+  // Sets w = A z + b, in extended precision where digits cancel, and judges (z, w). Sizes must match.
+  Verdict judge(const Lcp& problem, const VecX& z, VecX& w);
+
+ private:
+  friend double residual(const Lcp&, const VecX&, const VecX&);
+  friend bool acceptable(const Lcp&, const VecX&, const VecX&);
+  // What the residual is made of.
+  struct Measures {
+    double violation = 0;  // max_i |min(s_i z_i, w_i)|, or its form with bounds
+    double b_size = 0;     // max_i |b_i|
+    double az_size = 0;    // max_i (|A||z|)_i
+    bool in_bounds = true;
+  };
+  void sum_rows(const Lcp& problem, const VecX& z);
+  Measures measure(const Lcp& problem, const VecX& z, const VecX& w) const;
+
+  VecX scale_, products_, w_;  // s_i, (|A||z|)_i, (A z + b)_i
+};
+
 }  // namespace fc::lcp

@@ -26,7 +26,7 @@ LcpResult solve(const Lcp& problem, Method method, const SolveOptions& options) 
     case Method::interior_point:
       break;
   }
-  return solve_dantzig(problem, {.max_pivots = options.limit});
+  return solve_dantzig(problem, {.max_pivots = options.limit, .start = options.start});
 }
 
 }  // namespace fc::lcp

@@ -109,7 +109,7 @@ TEST_F(Program, EndsWith3AndWritesTheTablesIfThereIsNoSolution) {
 }
 
 TEST_F(Program, EndsWith3ForAMatrixItIsNotMadeFor) {
-  EXPECT_EQ(run_text("lcp: {A: [[1, 2], [0, 1]], b: [-1, -1]}\n"), 3);
+  EXPECT_EQ(run_text("lcp: {A: [[0, 1], [1, 0]], b: [-1, -1]}\n"), 3);
   EXPECT_EQ(table("solvers.csv")[1][1], "unsuited");
 }
 

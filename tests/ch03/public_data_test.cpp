@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <set>
 #include <string>
 
 #include "ch03_impulse_lcp/dantzig.hpp"
@@ -19,19 +20,36 @@ fs::path data_folder() {
   return (data ? fs::path(data) : fs::path(FC_SOURCE_DIR) / ".." / "shared" / "data") / "lcp";
 }
 
-// Symmetric positive semidefinite ones must be solved, asymmetric ones called unsuited; slightly indefinite
-// ones (real contact problems, with round-off in the file) may be either, but never wrong.
+// Beyond the class of Dantzig's method: neither positive semidefinite and symmetric nor a P-matrix.
+bool beyond(const std::string& name) {
+  static const std::set<std::string> names = {"lcp_CPS_2",
+                                              "lcp_CPS_3",
+                                              "lcp_CPS_4",
+                                              "lcp_CPS_4bis",
+                                              "lcp_Pang_isolated_sol",
+                                              "lcp_enum_fails",
+                                              "lcp_tobenna",
+                                              "lcp_inf_sol_perturbed",
+                                              "drake_10.2.3",
+                                              "drake_10.2.4",
+                                              "drake_10.2.9_l1",
+                                              "drake_10.2.9_l16",
+                                              "drake_10.2.9_l100"};
+  return names.contains(name);
+}
+
+// What has a solution and a matrix of the method's class must be solved, the real contact problems with their
+// slightly asymmetric matrices too; everything else must end in a status that says so.
 void check(const fs::path& base) {
   const MatX A = read_matrix_market(base.string() + ".A.mtx");
   const VecX b = read_matrix_market(base.string() + ".b.mtx");
   const LcpResult result = solve_dantzig({A, b});
-  const double asymmetry = (A - A.transpose()).lpNorm<Eigen::Infinity>() / A.lpNorm<Eigen::Infinity>();
-  if (asymmetry > 1e-8) {
+  if (beyond(base.filename().string())) {
     EXPECT_EQ(result.status, Status::unsuited);
     return;
   }
   if (!fs::exists(base.string() + ".z.mtx")) {
-    EXPECT_NE(result.status, Status::solved);
+    EXPECT_EQ(result.status, Status::no_solution);
     return;
   }
   ASSERT_EQ(result.status, Status::solved);

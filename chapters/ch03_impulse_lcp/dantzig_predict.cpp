@@ -1,0 +1,114 @@
+// A basis guessed at once: where Dantzig's method begins if somebody has a guess, or if there are many rows.
+#include <algorithm>
+#include <cmath>
+
+#include "ch03_impulse_lcp/dantzig_core.hpp"
+
+namespace fc::lcp::detail {
+namespace {
+
+// Exchanges of all violated rows at once that may fail to leave fewer of them before the method goes on row
+// by row.
+constexpr int kPatience = 3;
+// So few violated rows, as a share of the basis, are sooner done one by one than by another factorisation.
+constexpr int kShare = 48;
+
+}  // namespace
+
+// Block principal pivoting (Kostreva 1978; Júdice and Pires 1994): factor the guessed basis, find z and w,
+// and exchange every row that is violated, as long as they become fewer. It need not end, and proves nothing;
+// but what it leaves, less the rows whose z is out of bounds, is a state that Dantzig's method could have
+// reached: the basis has w = 0 and z within the bounds, and other rows are done if w allows it, and wait if
+// not.
+template <class Real>
+void DantzigCore<Real>::predict(const VecX* start) {
+  first_ = 0;
+  extent_ = n_;
+  guess(start);
+  int fewest = n_ + 1, patience = kPatience;
+  while (true) {
+    wanted_.clear();
+    for (int i = 0; i < n_; ++i) {
+      if (place(i) == Place::basis) {
+        wanted_.push_back(i);
+        place(i) = Place::waiting;
+      }
+      z_[i] = place(i) == Place::at_lower ? lower_[i] : place(i) == Place::at_upper ? upper_[i] : Real(0);
+    }
+    factor_.factor(wanted_, rank_rounding_);
+    for (const int i : factor_.rows()) place(i) = Place::basis;
+    solve_basis();
+
+    const int count = violations();
+    patience = count < fewest ? kPatience : patience - 1;
+    fewest = std::min(fewest, count);
+    if (count <= factor_.size() / kShare || patience == 0 || pivots_ + count > max_pivots_) break;
+    pivots_ += count;
+    exchange_violated();
+  }
+  drop_violated();
+  for (int i = 0; i < n_; ++i) {
+    if (place(i) != Place::basis && violated(i)) place(i) = Place::waiting;
+  }
+}
+
+// The places of all rows, from a guess of z, or from what w asks for at z = 0.
+template <class Real>
+void DantzigCore<Real>::guess(const VecX* start) {
+  for (int i = 0; i < n_; ++i) {
+    if (start != nullptr) {
+      const Real z = (*start)[i] * scale_[i];
+      place(i) = z <= lower_[i] ? Place::at_lower : z >= upper_[i] ? Place::at_upper : Place::basis;
+    } else {
+      const bool pushed = (b_[i] < 0 && upper_[i] > 0) || (b_[i] > 0 && lower_[i] < 0);
+      place(i) = pushed           ? Place::basis
+                 : lower_[i] == 0 ? Place::at_lower
+                 : upper_[i] == 0 ? Place::at_upper
+                                  : Place::waiting;
+    }
+    pivots_ += place(i) == Place::basis ? 1 : 0;
+  }
+}
+
+// How many rows the present places are wrong for.
+template <class Real>
+int DantzigCore<Real>::violations() const {
+  const Real slack = z_tolerance();
+  int count = 0;
+  for (int i = 0; i < n_; ++i) count += place(i) == Place::basis ? !within_bounds(i, slack) : violated(i);
+  return count;
+}
+
+template <class Real>
+void DantzigCore<Real>::exchange_violated() {
+  const Real slack = z_tolerance();
+  for (int i = 0; i < n_; ++i) {
+    if (place(i) != Place::basis) {
+      if (violated(i)) place(i) = Place::basis;
+    } else if (!within_bounds(i, slack)) {
+      place(i) = z_[i] < lower_[i] ? Place::at_lower : Place::at_upper;
+    }
+  }
+}
+
+// Takes the rows whose z is out of its bounds out of the basis until there are none.
+template <class Real>
+void DantzigCore<Real>::drop_violated() {
+  while (true) {
+    const Real slack = z_tolerance();
+    bool dropped = false;
+    for (int p = factor_.size() - 1; p >= 0; --p) {
+      const int i = factor_.row(p);
+      if (within_bounds(i, slack)) continue;
+      leave(p, z_[i] > upper_[i]);
+      dropped = true;
+    }
+    if (!dropped) return;
+    solve_basis();
+  }
+}
+
+template class DantzigCore<double>;
+template class DantzigCore<long double>;
+
+}  // namespace fc::lcp::detail
