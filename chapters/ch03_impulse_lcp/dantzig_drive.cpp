@@ -10,11 +10,6 @@ namespace {
 // A Schur complement below minus this proves an eigenvalue below zero that no round-off explains: `unsuited`
 // if the row cannot be driven without it.
 constexpr double kIndefinite = 1e-6;
-// A certificate y, |y|_1 = 1, of infeasibility counts if (A'y)_i <= kCertificateSlack for all i and b'y is
-// below -kCertificateGap |b|'y. Smaller gaps may be round-off in b (a ball held between two walls); they are
-// left to acceptable().
-constexpr double kCertificateSlack = 1e-10;
-constexpr double kCertificateGap = 1e-9;
 
 }  // namespace
 
@@ -122,26 +117,13 @@ void DantzigCore<Real>::leave(int position, bool upper) {
   ++pivots_;
 }
 
-// Whether the direction, along which nothing stops row d, proves that no solution exists: with y = dz, of
-// which only rows without that bound have a part, every solution would have y'w >= 0; but y'w = (A'y)'z +
-// b'y, and this is negative for every z if b'y < 0 and A'y <= 0 (A'y = 0 where there are other bounds than z
-// >= 0). Checked against the matrix as given.
+// Whether the direction, along which nothing stops row d, proves that no solution exists.
 template <class Real>
 bool DantzigCore<Real>::proves_infeasible(int d) const {
   VecX y = VecX::Zero(n_);
-  for (int i = first_; i < first_ + extent_; ++i) {
-    const bool free_way = dz_[i] > 0 ? upper_[i] == kInfinity : lower_[i] == -kInfinity;
-    if (free_way) y[i] = static_cast<double>(dz_[i]);
-  }
-  y[d] = static_cast<double>(dz_[d]);
-  y /= y.lpNorm<1>();
-  const VecX inverse_scale = inverse_scale_.head(n_).template cast<double>();
-  const VecX y_given = y.cwiseProduct(inverse_scale);
-  const VecX Ay = (problem_->A.transpose() * y_given).cwiseProduct(inverse_scale);
-  const double largest = problem_->boxed() ? Ay.lpNorm<Eigen::Infinity>() : Ay.maxCoeff();
-  const VecX& b = problem_->b;
-  return largest <= kCertificateSlack &&
-         b.dot(y_given) < -kCertificateGap * b.cwiseAbs().dot(y_given.cwiseAbs());
+  for (int i = first_; i < first_ + extent_; ++i) y[i] = static_cast<double>(dz_[i] * inverse_scale_[i]);
+  y[d] = static_cast<double>(dz_[d] * inverse_scale_[d]);
+  return certifies_no_solution(*problem_, y);
 }
 
 // Row d has reached w_d = 0 to within round-off without being the one that blocked: puts it where it belongs.

@@ -37,6 +37,11 @@ bool small_enough(const Measures& m, Eigen::Index n) {
   return m.in_bounds && rounding <= 1e-3 * m.b_size && m.violation <= 1e-6 * m.b_size + rounding;
 }
 
+// certifies_no_solution(): what counts as A'y = 0, rows being scaled to a diagonal of 1 and |y|_1 = 1; and as
+// b'y < 0.
+constexpr double kCertificateSlack = 1e-10;
+constexpr double kCertificateGap = 1e-9;
+
 // Where |A||z| is so many times |b|, the digits that cancel in A z + b are worth a longer sum.
 constexpr double kCancels = 16;
 
@@ -106,6 +111,22 @@ VecX evaluate(const MatX& A, const VecX& b, const VecX& z) {
     for (Eigen::Index r = 0; r < rows; ++r) w[i + r] = static_cast<double>(sum[r]);
   }
   return w;
+}
+
+bool certifies_no_solution(const Lcp& problem, const VecX& y) {
+  const Eigen::Index n = problem.size();
+  VecX scale(n), clean = VecX::Zero(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    scale[i] = problem.A(i, i) > 0 ? std::sqrt(problem.A(i, i)) : 1.0;
+    if (y[i] > 0 ? std::isinf(problem.high(i)) : std::isinf(problem.low(i))) clean[i] = y[i];
+  }
+  const double size = clean.cwiseProduct(scale).lpNorm<1>();
+  if (!(size > 0)) return false;
+  clean /= size;
+  const VecX Ay = (problem.A.transpose() * clean).cwiseQuotient(scale);
+  const double largest = problem.boxed() ? Ay.lpNorm<Eigen::Infinity>() : Ay.maxCoeff();
+  const double gap = problem.b.dot(clean);
+  return largest <= kCertificateSlack && gap < -kCertificateGap * problem.b.cwiseAbs().dot(clean.cwiseAbs());
 }
 
 // Column by column, as A lies in memory.

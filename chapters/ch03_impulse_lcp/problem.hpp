@@ -75,6 +75,13 @@ double residual(const Lcp& problem, const VecX& z, const VecX& w);
 // impulses, which need not be unique.
 bool acceptable(const Lcp& problem, const VecX& z, const VecX& w);
 
+// Whether y, n, proves that a problem has no solution: every solution would have y'w >= 0, but y'w = (A'y)'z
+// + b'y is negative for every z that the bounds allow. That is so if b'y < 0 and A'y <= 0, y being >= 0; with
+// bounds other than z >= 0, if A'y = 0, and y has entries only towards where a row has no bound. Checked by
+// multiplication, to a relative 1e-10 for A'y = 0 and 1e-9 for b'y < 0: a smaller gap may be round-off in b.
+// Entries of y of the wrong sign count as 0.
+bool certifies_no_solution(const Lcp& problem, const VecX& y);
+
 // What a solver asks at its end; residual() and acceptable() at once, without memory from the heap once it
 // has met problems as large.
 struct Verdict {

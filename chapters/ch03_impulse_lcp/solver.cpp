@@ -1,6 +1,9 @@
 #include "ch03_impulse_lcp/solver.hpp"
 
 #include "ch03_impulse_lcp/dantzig.hpp"
+#include "ch03_impulse_lcp/interior_point.hpp"
+#include "ch03_impulse_lcp/lemke.hpp"
+#include "ch03_impulse_lcp/projected_gauss_seidel.hpp"
 
 namespace fc::lcp {
 
@@ -21,10 +24,13 @@ std::string_view name(Method method) {
 LcpResult solve(const Lcp& problem, Method method, const SolveOptions& options) {
   switch (method) {
     case Method::dantzig:
-    case Method::lemke:
-    case Method::pgs:
-    case Method::interior_point:
       break;
+    case Method::lemke:
+      return solve_lemke(problem, options);
+    case Method::pgs:
+      return solve_pgs(problem, options);
+    case Method::interior_point:
+      return solve_interior_point(problem, options);
   }
   return solve_dantzig(problem, {.max_pivots = options.limit, .start = options.start});
 }

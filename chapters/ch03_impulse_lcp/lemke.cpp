@@ -1,0 +1,185 @@
+#include "ch03_impulse_lcp/lemke.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "ch03_impulse_lcp/active_set.hpp"
+
+namespace fc::lcp {
+namespace {
+
+// Rows and b are scaled so that entries are about 1. An entry of the entering column below kEntry (times the
+// column's largest) does not block; two ratios that differ by less than kTie (times the larger, or
+// absolutely) are the same.
+constexpr double kEntry = 1e-11;
+constexpr double kTie = 1e-12;
+
+class Lemke {
+ public:
+  explicit Lemke(const Lcp& problem);
+  Status run(int limit);
+  int pivots() const { return pivots_; }
+  // z in the problem's unit, and the rows that are in the basis with it.
+  VecX impulses() const;
+  std::vector<int> active() const;
+  // The direction of z along the ray on which run() ended.
+  VecX ray() const;
+
+ private:
+  // Unknowns by number: w_i is i, z_i is n + i, z_0 is 2 n.
+  int complement(int unknown) const { return unknown < n_ ? unknown + n_ : unknown - n_; }
+  void set_column(int unknown);
+  int leaving_row() const;
+  bool before(int i, int j) const;
+  void exchange(int row, int entering);
+
+  const Lcp& problem_;
+  int n_;
+  VecX scale_;
+  double size_ = 1;  // of b: what z and w are divided by
+  MatX A_;
+  MatX inverse_;            // B^-1, B the columns of the basic unknowns in w - A z - c z_0 = b
+  VecX values_;             // B^-1 b: the basic unknowns, in the order of basis_
+  VecX column_;             // B^-1 times the entering column
+  std::vector<int> basis_;  // the unknown of each row
+  int entering_ = -1, pivots_ = 0;
+};
+
+Lemke::Lemke(const Lcp& problem)
+    : problem_(problem),
+      n_(static_cast<int>(problem.size())),
+      scale_(n_),
+      A_(problem.A),
+      inverse_(MatX::Identity(n_, n_)),
+      values_(problem.b),
+      column_(n_),
+      basis_(static_cast<std::size_t>(n_)) {
+  for (int i = 0; i < n_; ++i) {
+    basis_[static_cast<std::size_t>(i)] = i;
+    const double size = problem.A(i, i) > 0 ? problem.A(i, i) : 1.0;
+    scale_[i] = std::exp2(std::round(0.5 * std::log2(size)));
+  }
+  for (int j = 0; j < n_; ++j) A_.col(j) = A_.col(j).cwiseQuotient(scale_) / scale_[j];
+  values_ = values_.cwiseQuotient(scale_);
+  size_ = n_ > 0 && !values_.isZero(0) ? values_.lpNorm<Eigen::Infinity>() : 1.0;
+  values_ /= size_;
+}
+
+void Lemke::set_column(int unknown) {
+  if (unknown == 2 * n_) {
+    column_ = -inverse_.rowwise().sum();  // c = (1, ..., 1) in scaled rows
+  } else if (unknown >= n_) {
+    column_.noalias() = -(inverse_ * A_.col(unknown - n_));
+  } else {
+    column_ = inverse_.col(unknown);
+  }
+  entering_ = unknown;
+}
+
+// Whether row i stops the entering unknown before row j does, on a tie by the rows of B^-1.
+bool Lemke::before(int i, int j) const {
+  const double ci = column_[i], cj = column_[j];
+  const auto compare = [](double a, double b) {
+    if (std::abs(a - b) <= kTie * std::max({1.0, std::abs(a), std::abs(b)})) return 0;
+    return a < b ? -1 : 1;
+  };
+  if (const int first = compare(values_[i] / ci, values_[j] / cj)) return first < 0;
+  if (basis_[static_cast<std::size_t>(i)] == 2 * n_) return true;  // z_0 leaves if it may: that is the end
+  if (basis_[static_cast<std::size_t>(j)] == 2 * n_) return false;
+  for (int k = 0; k < n_; ++k) {
+    if (const int order = compare(inverse_(i, k) / ci, inverse_(j, k) / cj)) return order < 0;
+  }
+  return false;
+}
+
+int Lemke::leaving_row() const {
+  const double smallest = kEntry * column_.lpNorm<Eigen::Infinity>();
+  int row = -1;
+  for (int i = 0; i < n_; ++i) {
+    if (column_[i] > smallest && (row < 0 || before(i, row))) row = i;
+  }
+  return row;
+}
+
+void Lemke::exchange(int row, int entering) {
+  const double pivot = column_[row];
+  const Eigen::RowVectorXd of_row = inverse_.row(row) / pivot;
+  const double value = values_[row] / pivot;
+  column_[row] = 0;
+  inverse_.noalias() -= column_ * of_row;
+  values_ -= value * column_;
+  inverse_.row(row) = of_row;
+  values_[row] = value;
+  basis_[static_cast<std::size_t>(row)] = entering;
+  ++pivots_;
+}
+
+Status Lemke::run(int limit) {
+  if (n_ == 0 || values_.minCoeff() >= 0) return Status::solved;
+
+  // z_0 enters for the row that needs it most, the last of them on a tie: then all others are w >= 0.
+  int row = 0;
+  for (int i = 1; i < n_; ++i) {
+    if (values_[i] <= values_[row]) row = i;
+  }
+  set_column(2 * n_);
+  int left = basis_[static_cast<std::size_t>(row)];
+  exchange(row, 2 * n_);
+
+  // What leaves makes its complement the next to enter.
+  while (left != 2 * n_) {
+    if (pivots_ >= limit) return Status::limit;
+    set_column(complement(left));
+    row = leaving_row();
+    if (row < 0) return Status::ray;
+    left = basis_[static_cast<std::size_t>(row)];
+    exchange(row, entering_);
+  }
+  return Status::solved;
+}
+
+VecX Lemke::impulses() const {
+  VecX z = VecX::Zero(n_);
+  for (int p = 0; p < n_; ++p) {
+    const int i = basis_[static_cast<std::size_t>(p)] - n_;
+    if (i >= 0 && i < n_ && values_[p] > 0) z[i] = values_[p] / scale_[i] * size_;
+  }
+  return z;
+}
+
+std::vector<int> Lemke::active() const {
+  std::vector<int> rows;
+  for (const int unknown : basis_) {
+    if (unknown >= n_ && unknown < 2 * n_) rows.push_back(unknown - n_);
+  }
+  return rows;
+}
+
+VecX Lemke::ray() const {
+  VecX y = VecX::Zero(n_);
+  if (entering_ >= n_ && entering_ < 2 * n_) y[entering_ - n_] = 1 / scale_[entering_ - n_];
+  for (int p = 0; p < n_; ++p) {
+    const int i = basis_[static_cast<std::size_t>(p)] - n_;
+    if (i >= 0 && i < n_) y[i] = std::max(0.0, -column_[p]) / scale_[i];
+  }
+  return y;
+}
+
+}  // namespace
+
+LcpResult solve_lemke(const Lcp& problem, const SolveOptions& options) {
+  check_arguments(problem);
+  if (problem.boxed()) return refused(problem, Status::unsuited);
+  const int n = static_cast<int>(problem.size());
+  Lemke method(problem);
+  const Status status = method.run(options.limit > 0 ? options.limit : 100 + 50 * n);
+  LcpResult result = judged(problem, method.impulses(), status);
+  result.pivots = method.pivots();
+  if (status == Status::ray && certifies_no_solution(problem, method.ray()))
+    result.status = Status::no_solution;
+  if (status == Status::solved) polish(problem, method.active(), result);
+  return result;
+}
+
+}  // namespace fc::lcp
