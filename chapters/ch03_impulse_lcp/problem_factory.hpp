@@ -15,72 +15,55 @@ namespace fc::lcp {
 // d_i, so that every row matters alike however different the masses are. Loaded: z is what each contact
 // carries when everything rests on the floor, and w 1/8 to 1 m/s, the scale that a stack of bodies has.
 enum class Family {
-  random_spd,          // whole numbers G'G, G 2n by n: condition about 30
-  spd_1e4,             // Q D Q' with eigenvalues spread evenly in their logarithm, condition 1e4, 1e8, 1e12
-  spd_1e8,             //
-  spd_1e12,            //
-  all_active,          // random_spd, and w = 0 everywhere: A z = -b, a linear system in disguise
-  degenerate,          // random_spd, and a third of the rows has z = w = 0
+  // Symmetric positive definite.
+  random_spd,  // whole numbers G'G, G 2n by n: condition about 30
+  spd_1e4,     // Q D Q' with eigenvalues evenly spread in their logarithm, condition 1e4
+  spd_1e8,
+  spd_1e12,
+  all_active,  // random_spd, and w = 0 everywhere: A z = -b, a linear system in disguise
+  degenerate,  // random_spd, and a third of the rows has z = w = 0
+
+  // Symmetric positive semidefinite.
   rank_deficient,      // whole numbers G'G, G n/2 by n
   duplicate_contacts,  // a box on the floor, each of its four corners given n/4 times: rank 3
   stack,               // boxes upon each other, four corners each, equal masses, loaded: rank 3n/4
   stack_1e4,           // the same, masses rising to 2^14 at the top
   stack_1e8,           // the same, to 2^27
   tower_1e8,           // balls upon each other, masses rising to 2^27 at the top, loaded; a quarter apart
-  chain_1e8,           // balls in a row between two walls, masses 1 and 2^27 in turn
+  chain_1e8,           // balls in a row between two walls, masses 1 and 2^27 in turn: rank n - 1
   ball_heap,           // balls on a disturbed grid, a contact wherever neighbours touch
-  box_heap,        // boxes and balls, turned at random; four contacts where two boxes meet: rank-deficient
-  graded,          // D A D of random_spd, D falling by powers of two from 1 to 2^-20
-  hilbert,         // 1 / (i + j - 1), for n <= 12 times what makes it whole: condition 1.5e10 at n = 8
-  murty,           // pivoting's worst cases, see the functions
-  fathi,           //
-  fathi_shifted,   //
-  csizmadia,       //
-  murty_reversed,  // the same with rows and columns from the last to the first
-  fathi_reversed,  //
-  fathi_shifted_reversed,
+  box_heap,            // boxes and balls turned at random, four contacts where two boxes meet
+  graded,              // D A D of random_spd, D falling by powers of two from 1 to 2^-20
+  hilbert,             // 1 / (i + j - 1), for n <= 12 times what makes it whole; condition 1.5e10 at n = 8
+
+  // Where pivoting, or interior points, do their worst; exact in whole numbers.
+  murty,                   // lower triangular, 1 on the diagonal and 2 below, b = -1: Lemke takes 2^n pivots
+  fathi,                   // L L' of Murty's L, b = -1 (Fathi 1979)
+  fathi_shifted,           // the same with n + 1 rows, without the first row and column; b = -5
+  csizmadia,               // lower triangular, 1 on the diagonal and -1 below: its inverse grows like 2^n
+  murty_reversed,          // the same with rows and columns from the last to the first: what takes Lemke 2^n
+  fathi_reversed,          // pivots in one order takes methods that go row by row 2^n - 1 in the other
+  fathi_shifted_reversed,  //
   csizmadia_reversed,
-  positive_definite,  // not symmetric: random_spd plus a skew matrix as large
-  triangular,         // not symmetric: lower triangular, random, diagonal 1 to 4
-  boxed,              // random_spd with bounds: a quarter each between, at the lower, at the upper, unbounded
-  boxed_deficient,    // rank_deficient with bounds
-  infeasible,         // rank_deficient with a y >= 0, A y = 0, b'y < 0: no solution
-  squeezed,           // balls between two walls whose restitutions differ: no solution
+
+  // Not symmetric, with positive principal minors.
+  positive_definite,  // random_spd plus a skew matrix as large
+  triangular,         // lower triangular, random, diagonal at least the root of n
+
+  // With bounds: a quarter of the rows each between them, at the lower, at the upper, without bounds.
+  boxed,            // random_spd
+  boxed_deficient,  // rank_deficient
+
+  // Without a solution.
+  infeasible,  // rank_deficient with a y >= 0, A y = 0, b'y = -1
+  squeezed,    // balls between two walls whose restitutions differ, by assemble()
 };
 
-inline constexpr std::array kFamilies = {
-    Family::random_spd,
-    Family::spd_1e4,
-    Family::spd_1e8,
-    Family::spd_1e12,
-    Family::all_active,
-    Family::degenerate,
-    Family::rank_deficient,
-    Family::duplicate_contacts,
-    Family::stack,
-    Family::stack_1e4,
-    Family::stack_1e8,
-    Family::tower_1e8,
-    Family::chain_1e8,
-    Family::ball_heap,
-    Family::box_heap,
-    Family::graded,
-    Family::hilbert,
-    Family::murty,
-    Family::fathi,
-    Family::fathi_shifted,
-    Family::csizmadia,
-    Family::murty_reversed,
-    Family::fathi_reversed,
-    Family::fathi_shifted_reversed,
-    Family::csizmadia_reversed,
-    Family::positive_definite,
-    Family::triangular,
-    Family::boxed,
-    Family::boxed_deficient,
-    Family::infeasible,
-    Family::squeezed,
-};
+inline constexpr auto kFamilies = [] {
+  std::array<Family, static_cast<std::size_t>(Family::squeezed) + 1> all{};
+  for (std::size_t k = 0; k < all.size(); ++k) all[k] = static_cast<Family>(k);
+  return all;
+}();
 
 // The words above.
 std::string_view name(Family family);
@@ -107,8 +90,10 @@ struct KnownProblem {
 };
 
 // What rounding b leaves of the residual: half a unit in the last place of b, and what sums in extended
-// precision lose, whatever A's condition. z then solves the rounded problem to within condition times this,
-// relative to its largest entry; w of a semidefinite A does not suffer from the condition.
+// precision lose, whatever A's condition; 0 where nothing was rounded. The rounded problem's own z differs
+// from the planted one by up to condition times this, relative to its largest entry. Its w does not, with one
+// exception: where A has eigenvalues below round-off that are not 0 (hilbert, n > 12), (w - w')'(z - z') of
+// two answers at round-off bounds |w - w'| by the root of round-off only, about 1e-8.
 double planted_floor(const KnownProblem& problem);
 
 // A problem of the family.
