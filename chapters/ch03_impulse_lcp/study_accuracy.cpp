@@ -48,13 +48,14 @@ void measure(Family family, const std::vector<KnownProblem>& problems, TableWrit
       Tally tally;
       for (const KnownProblem& p : problems)
         tally.add(
-            timed_solve(p.lcp(), method, {.limit = limit, .tolerance = iterative(method) ? kNever : 0}));
+            p, timed_solve(p.lcp(), method, {.limit = limit, .tolerance = iterative(method) ? kNever : 0}));
       if (tally.work.empty()) continue;
       suited = true;
       const double work = median(tally.work), reached = median(tally.residual), ns = median(tally.ns);
       accuracy.row({std::string(name(family)), std::int64_t{n}, std::string(name(method)),
                     std::int64_t{limit}, static_cast<std::int64_t>(problems.size()),
-                    std::int64_t{tally.solved}, work, products(method, work, n), reached, ns});
+                    std::int64_t{tally.solved}, work, products(method, work, n), reached, median(tally.error),
+                    ns});
       for (std::size_t k = 0; k < kBudgets.size(); ++k)
         if (ns <= kBudgets[k]) best.residual[k] = std::min(best.residual[k], reached);
     }
@@ -76,6 +77,7 @@ void study_accuracy(const StudyOptions& options) {
                                                       {"work", ""},
                                                       {"products", ""},
                                                       {"residual", ""},
+                                                      {"error", ""},
                                                       {"median_ns", ""}});
   TableWriter budget(options.out / "budget.csv", {{"family", ""},
                                                   {"rows", ""},

@@ -23,14 +23,13 @@ Timed timed_solve(const Lcp& problem, Method method, const SolveOptions& options
   return timed;
 }
 
-void Tally::add(const Timed& timed) {
-  if (timed.result.status == Status::unsuited) {
-    ++unsuited;
-    return;
-  }
-  solved += timed.result.status == Status::solved;
-  work.push_back(timed.result.pivots);
-  residual.push_back(timed.result.residual);
+void Tally::add(const KnownProblem& problem, const Timed& timed) {
+  const LcpResult& result = timed.result;
+  if (result.status == Status::unsuited) return;
+  solved += result.status == Status::solved;
+  work.push_back(result.pivots);
+  residual.push_back(result.residual);
+  error.push_back((result.w - problem.w).lpNorm<Eigen::Infinity>() / problem.b.lpNorm<Eigen::Infinity>());
   ns.push_back(timed.ns);
 }
 
