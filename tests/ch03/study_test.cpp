@@ -83,6 +83,17 @@ TEST_F(StudyTables, CurvesFallToAnAnswer) {
   }
 }
 
+// A method that is another one under its name would take the same work everywhere.
+TEST_F(StudyTables, MethodsAreDifferent) {
+  const fc_test::Table t = table("profiles.csv");
+  std::map<std::string, std::map<std::string, double>> work;  // method, problem
+  for (int row = 0; row < t.rows(); ++row)
+    work[text(t, row, "method")][text(t, row, "family") + text(t, row, "rows")] = t.at(row, "work");
+  EXPECT_TRUE(work.contains("dantzig"));
+  for (auto a = work.begin(); a != work.end(); ++a)
+    for (auto b = std::next(a); b != work.end(); ++b) EXPECT_NE(a->second, b->second) << a->first << b->first;
+}
+
 // The best of the rows of accuracy.csv within the time, found again here.
 TEST_F(StudyTables, BudgetIsWhatAccuracyReached) {
   const fc_test::Table accuracy = table("accuracy.csv"), budget = table("budget.csv");
