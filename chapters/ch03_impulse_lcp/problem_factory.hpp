@@ -12,8 +12,10 @@
 namespace fc::lcp {
 
 // Natural scale: d_i is the power of two next to sqrt(A_ii), z_i is 1/8 to 1 over d_i and w_i 1/8 to 1 times
-// d_i, so that every row matters alike however different the masses are. Loaded: z is what each contact
-// carries when everything rests on the floor, and w 1/8 to 1 m/s, the scale that a stack of bodies has.
+// d_i, so that every row matters alike however different the masses are. Loaded: each face carries 1/8 m/s
+// times the mass above it, up to the next face that is apart, without turning anything; w is 1/8 to 1 m/s.
+// Then z spans as many decades as the masses, and A z is speeds, the difference of huge numbers. (A body over
+// a face that is apart takes its load alone: there b is load over mass, perhaps thousands.)
 enum class Family {
   // Symmetric positive definite.
   random_spd,  // whole numbers G'G, G 2n by n: condition about 30
@@ -37,13 +39,15 @@ enum class Family {
   hilbert,             // 1 / (i + j - 1), for n <= 12 times what makes it whole; condition 1.5e10 at n = 8
 
   // Where pivoting, or interior points, do their worst; exact in whole numbers.
-  murty,                   // lower triangular, 1 on the diagonal and 2 below, b = -1: Lemke takes 2^n pivots
-  fathi,                   // L L' of Murty's L, b = -1 (Fathi 1979)
-  fathi_shifted,           // the same with n + 1 rows, without the first row and column; b = -5
-  csizmadia,               // lower triangular, 1 on the diagonal and -1 below: its inverse grows like 2^n
-  murty_reversed,          // the same with rows and columns from the last to the first: what takes Lemke 2^n
-  fathi_reversed,          // pivots in one order takes methods that go row by row 2^n - 1 in the other
-  fathi_shifted_reversed,  //
+  murty,          // lower triangular, 1 on the diagonal and 2 below, b = -1: Lemke takes 2^n pivots
+  fathi,          // L L' of Murty's L, b = -1 (Fathi 1979)
+  fathi_shifted,  // the same with n + 1 rows, without the first row and column; b = -5
+  csizmadia,      // lower triangular, 1 on the diagonal and -1 below: its inverse grows like 2^n
+  // The same with rows and columns from the last to the first: in one of the two orders a method that takes
+  // row after row needs 2^n - 1 pivots, if it has no second idea.
+  murty_reversed,
+  fathi_reversed,
+  fathi_shifted_reversed,
   csizmadia_reversed,
 
   // Not symmetric, with positive principal minors.

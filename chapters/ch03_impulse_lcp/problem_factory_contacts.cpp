@@ -34,7 +34,7 @@ void touch(Scene& scene, int a, int b, const Vec3& point, const Vec3& normal) {
   scene.contacts.push_back({a, b, point, normal, 0, 0});
 }
 
-// 2^(decades k / (count - 1)), rounded to a power of two.
+// kg: 1 for body 0, 2^doublings for the last, powers of two between.
 double rising_mass(int k, int count, int doublings) {
   return count < 2 ? 1 : std::exp2(std::round(doublings * double(k) / (count - 1)));
 }
@@ -55,9 +55,8 @@ KnownProblem duplicates(int n, Random& random) {
   return p;
 }
 
-// Bodies upon each other, `corners` contacts in each face; every face carries the bodies above it up to the
-// next face that is apart. One in four faces is apart, one carries with all corners, two with opposite ones:
-// so loads are in balance, and A z is speeds however large the masses are.
+// Four contacts in each face; every face carries the bodies above it up to the next face that is apart. One
+// in four faces is apart, one carries with all corners, two with opposite ones: loads turn no box.
 KnownProblem stack(int n, int doublings, Random& random) {
   const int boxes = n / 4;
   Scene scene{{RigidBody{}}, {}};

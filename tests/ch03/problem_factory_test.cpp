@@ -68,6 +68,50 @@ TEST(FactoryHeaps, BoxesAreRedundantBallsAreNot) {
   }
 }
 
+// A face that carries gives the body above it 1/8 m/s more than the face over that body takes, and no spin.
+TEST(FactoryLoads, AreHugeAndInBalance) {
+  for (const Family family : {Family::stack, Family::stack_1e4, Family::stack_1e8, Family::tower_1e8})
+    for (const std::uint64_t seed : {1u, 2u, 3u}) {
+      const KnownProblem p = make_problem(family, 96, seed);
+      const Eigen::Index corners = family == Family::tower_1e8 ? 1 : 4, faces = 96 / corners;
+      const double doublings = family == Family::stack ? 0 : family == Family::stack_1e4 ? 14 : 27;
+      double above = 0;
+      for (Eigen::Index k = faces - 1; k >= 0; --k) {
+        const VecX z = p.z.segment(corners * k, corners);
+        const double mass = std::exp2(std::round(doublings * static_cast<double>(k) / double(faces - 1)));
+        EXPECT_EQ(z.sum(), z.maxCoeff() > 0 ? above + mass / 8 : 0) << label(p) << ", face " << k;
+        above = z.sum();
+        if (corners == 4) {
+          EXPECT_EQ(z[0], z[2]);
+          EXPECT_EQ(z[1], z[3]);
+        }
+      }
+    }
+}
+
+TEST(FactoryScales, SpreadAsStated) {
+  const VecX graded = make_problem(Family::graded, 96, 1).A.diagonal();
+  EXPECT_GE(graded[0] / graded[95], 0x1p38);
+  EXPECT_LE(graded[0] / graded[95], 0x1p42);
+  const MatX chain = make_problem(Family::chain_1e8, 96, 1).A;  // the first ball weighs 1 kg, the second 2^27
+  EXPECT_EQ(chain(0, 0), 1);
+  EXPECT_EQ(chain(0, 1), -1);
+  EXPECT_EQ(chain(1, 2), -0x1p-27);
+  const VecX s = Eigen::JacobiSVD<MatX>(make_problem(Family::hilbert, 8, 1).A).singularValues();
+  EXPECT_NEAR(s[0] / s[7], 1.5257575e10, 1e6);  // Todd 1954
+}
+
+TEST(FactoryWorstCases, AreReversed) {
+  const auto expect = [](Family forward, Family backward) {
+    const KnownProblem p = make_problem(forward, 9, 1), q = make_problem(backward, 9, 1);
+    EXPECT_TRUE(q.A == p.A.reverse() && q.b == p.b.reverse() && q.z == p.z.reverse() && q.w == p.w.reverse());
+  };
+  expect(Family::murty, Family::murty_reversed);
+  expect(Family::fathi, Family::fathi_reversed);
+  expect(Family::fathi_shifted, Family::fathi_shifted_reversed);
+  expect(Family::csizmadia, Family::csizmadia_reversed);
+}
+
 // The public files were made by other hands.
 TEST(FactoryWorstCases, AreThePublicOnes) {
   const char* data = std::getenv("FC_DATA");
