@@ -1,4 +1,4 @@
-// Dantzig's method on every symmetric family of the problem factory: the planted w comes out.
+// Dantzig's method on every family of the problem factory: the planted w comes out, or the certificate.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -18,12 +18,21 @@ double w_tolerance(const KnownProblem& p) {
   return p.family == Family::hilbert && !p.exact ? 1e-7 : 1e-13;
 }
 
+// What is symmetric, semidefinite and without bounds has to be solved. Beyond that the method may refuse, and
+// where pivots double with every row it may give up; what it calls solved is right all the same.
+bool may_refuse(const KnownProblem& p, Status status) {
+  const bool doubling = p.family >= Family::murty && p.family <= Family::csizmadia_reversed && !p.symmetric;
+  return (status == Status::unsuited && (!p.symmetric || p.lcp().boxed())) ||
+         (status == Status::limit && doubling);
+}
+
 TEST_P(DantzigFamilies, FindsThePlantedAnswerOrTheCertificate) {
   for (const Eigen::Index n : {8, 32, 96})
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
       const KnownProblem p = make_problem(GetParam(), n, seed);
       SCOPED_TRACE("n = " + std::to_string(n) + ", seed " + std::to_string(seed));
       const LcpResult result = solve_dantzig(p.lcp());
+      if (may_refuse(p, result.status)) continue;
       EXPECT_STREQ(name(result.status), name(p.solvable ? Status::solved : Status::no_solution));
       if (!p.solvable || result.status != Status::solved) continue;
       EXPECT_LE(result.residual, 1e-13);
@@ -31,16 +40,7 @@ TEST_P(DantzigFamilies, FindsThePlantedAnswerOrTheCertificate) {
     }
 }
 
-std::vector<Family> symmetric_families() {
-  std::vector<Family> families;
-  for (const Family family : kFamilies) {
-    const KnownProblem p = make_problem(family, 8, 1);
-    if (p.symmetric && !p.lcp().boxed()) families.push_back(family);
-  }
-  return families;
-}
-
-INSTANTIATE_TEST_SUITE_P(Symmetric, DantzigFamilies, testing::ValuesIn(symmetric_families()),
+INSTANTIATE_TEST_SUITE_P(All, DantzigFamilies, testing::ValuesIn(kFamilies),
                          [](const auto& family) { return std::string(name(family.param)); });
 
 // Among 200 seeds of each size, those that a version of Dantzig's method once gave up on.
