@@ -113,10 +113,10 @@ double planted_floor(const KnownProblem& problem) {
 KnownProblem make_problem(Family family, Eigen::Index n, std::uint64_t seed) {
   const bool fours = (family >= Family::duplicate_contacts && family <= Family::stack_1e8) ||
                      family == Family::boxed || family == Family::boxed_deficient;
-  if (n < 4 || n > 100'000 || (fours && n % 4 != 0)) {
+  if (n < 4 || n > 10'000 || (fours && n % 4 != 0)) {
     throw std::invalid_argument("a problem of the family " + std::string(name(family)) + " cannot have " +
-                                std::to_string(n) + " rows; 4 to 100000" +
-                                (fours ? ", a multiple of 4" : "") + " are needed");
+                                std::to_string(n) + " rows; 4 to 10000" + (fours ? ", a multiple of 4" : "") +
+                                " are needed");
   }
   // Families of one seed share nothing.
   detail::Random random(seed * kFamilies.size() + static_cast<std::uint64_t>(family));

@@ -101,7 +101,7 @@ struct KnownProblem {
 double planted_floor(const KnownProblem& problem);
 
 // A problem of the family.
-//   n:    rows, 4 to 100,000; a multiple of 4 for duplicate_contacts, stack* and boxed*
+//   n:    rows, 4 to 10,000; a multiple of 4 for duplicate_contacts, stack* and boxed*
 //   seed: any; the same seed gives the same problem. Murty's, Fathi's and Csizmadia's do not depend on it.
 // Half of the rows (rounded down) is active (z > 0 = w), the others are not (z = 0 < w), in random order; the
 // exceptions: all_active; degenerate (a third each); stack* (about half, by whole or half faces); tower_1e8

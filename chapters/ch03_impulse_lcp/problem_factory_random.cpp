@@ -1,5 +1,5 @@
-// The factory's matrices that are not of contacts: random ones of prescribed condition, rank and symmetry;
-// bounds; problems without an answer; and the families on which pivoting does its worst.
+// The factory's matrices that are not of contacts: random ones of prescribed condition, rank and symmetry,
+// Hilbert's, and those with bounds.
 #include <Eigen/QR>
 #include <cmath>
 #include <numeric>

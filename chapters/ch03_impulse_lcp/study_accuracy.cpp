@@ -31,18 +31,14 @@ double residual_of_nothing(const KnownProblem& p) {
   return residual(p.lcp(), VecX::Zero(p.b.size()), p.b);
 }
 
-struct Best {
-  std::array<double, kBudgets.size()> residual;
-};
-
 void measure(Family family, const std::vector<KnownProblem>& problems, TableWriter& accuracy,
              TableWriter& budget) {
   const Eigen::Index n = problems.front().b.size();
   std::vector<double> nothing;
   for (const KnownProblem& p : problems) nothing.push_back(residual_of_nothing(p));
   for (const Method method : kMethods) {
-    Best best;
-    best.residual.fill(median(nothing));
+    std::array<double, kBudgets.size()> best;
+    best.fill(median(nothing));
     bool suited = false;
     for (const int limit : limits(method, n)) {
       Tally tally;
@@ -57,11 +53,11 @@ void measure(Family family, const std::vector<KnownProblem>& problems, TableWrit
                     std::int64_t{tally.solved}, work, products(method, work, n), reached, median(tally.error),
                     ns});
       for (std::size_t k = 0; k < kBudgets.size(); ++k)
-        if (ns <= kBudgets[k]) best.residual[k] = std::min(best.residual[k], reached);
+        if (ns <= kBudgets[k]) best[k] = std::min(best[k], reached);
     }
     if (!suited) continue;
     budget.row({std::string(name(family)), std::int64_t{n}, std::string(name(method)), median(nothing),
-                best.residual[0], best.residual[1], best.residual[2]});
+                best[0], best[1], best[2]});
   }
 }
 
