@@ -1,0 +1,26 @@
+"""What the pictures of ch03_study share: the methods' names, colours and marks, and how a residual of 0 is drawn."""
+
+import numpy as np
+
+from style import BLUE, GREEN, ORANGE, RED
+
+METHODS = {  # as the tables name them: label, colour, mark
+    "dantzig": ("Dantzig", BLUE, "o"),
+    "lemke": ("Lemke", GREEN, "s"),
+    "pgs": ("projected Gauss-Seidel", ORANGE, "^"),
+    "interior_point": ("interior point", RED, "D"),
+}
+FAMILIES = {
+    "random_spd": "random, well conditioned",
+    "spd_1e8": "condition $10^8$",
+    "rank_deficient": "rank n/2",
+    "box_heap": "heap of boxes and balls",
+    "stack": "stack, equal masses",
+    "stack_1e8": "stack, heavy on light $10^8$",
+}
+LEAST = 1e-17  # below round-off: here stands what is 0
+RESIDUAL_TICKS = [LEAST, 1e-12, 1e-8, 1e-4, 1], ["0", "$10^{-12}$", "$10^{-8}$", "$10^{-4}$", "1"]
+
+
+def at_least(residual: np.ndarray) -> np.ndarray:
+    return np.maximum(residual, LEAST)
