@@ -1,5 +1,6 @@
 #include "ch03_impulse_lcp/lemke.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -12,8 +13,11 @@ namespace {
 // Rows and b are scaled so that entries are about 1. An entry of the entering column below kEntry (times the
 // column's largest) does not block; two ratios that differ by less than kTie (times the larger, or
 // absolutely) are the same.
-constexpr double kEntry = 1e-11;
-constexpr double kTie = 1e-12;
+constexpr double kEntry = 1e-9;
+constexpr double kTie = 1e-11;
+// How often the inverse is compared with the matrix, and from which error on it is made afresh.
+constexpr int kLookEvery = 16;
+constexpr double kDrift = 1e-11;
 
 class Lemke {
  public:
@@ -33,12 +37,15 @@ class Lemke {
   int leaving_row() const;
   bool before(int i, int j) const;
   void exchange(int row, int entering);
+  MatX basis_matrix() const;
+  void refresh_if_drifted();
 
   const Lcp& problem_;
   int n_;
   VecX scale_;
   double size_ = 1;  // of b: what z and w are divided by
   MatX A_;
+  VecX b_;
   MatX inverse_;            // B^-1, B the columns of the basic unknowns in w - A z - c z_0 = b
   VecX values_;             // B^-1 b: the basic unknowns, in the order of basis_
   VecX column_;             // B^-1 times the entering column
@@ -64,6 +71,7 @@ Lemke::Lemke(const Lcp& problem)
   values_ = values_.cwiseQuotient(scale_);
   size_ = n_ > 0 && !values_.isZero(0) ? values_.lpNorm<Eigen::Infinity>() : 1.0;
   values_ /= size_;
+  b_ = values_;
 }
 
 void Lemke::set_column(int unknown) {
@@ -115,6 +123,33 @@ void Lemke::exchange(int row, int entering) {
   ++pivots_;
 }
 
+MatX Lemke::basis_matrix() const {
+  MatX B = MatX::Zero(n_, n_);
+  for (int p = 0; p < n_; ++p) {
+    const int unknown = basis_[static_cast<std::size_t>(p)];
+    if (unknown == 2 * n_) {
+      B.col(p).setConstant(-1);
+    } else if (unknown >= n_) {
+      B.col(p) = -A_.col(unknown - n_);
+    } else {
+      B(unknown, p) = 1;
+    }
+  }
+  return B;
+}
+
+// Round-off gathers in a matrix that is exchanged column by column.
+void Lemke::refresh_if_drifted() {
+  const MatX B = basis_matrix();
+  const VecX all = VecX::Ones(n_);
+  const double drift = std::max((B * values_ - b_).lpNorm<Eigen::Infinity>(),
+                                (B * (inverse_ * all) - all).lpNorm<Eigen::Infinity>());
+  if (drift <= kDrift) return;
+  inverse_ = B.partialPivLu().inverse();
+  values_ = inverse_ * b_;
+  values_ += inverse_ * (b_ - B * values_);
+}
+
 Status Lemke::run(int limit) {
   if (n_ == 0 || values_.minCoeff() >= 0) return Status::solved;
 
@@ -135,6 +170,7 @@ Status Lemke::run(int limit) {
     if (row < 0) return Status::ray;
     left = basis_[static_cast<std::size_t>(row)];
     exchange(row, entering_);
+    if (pivots_ % kLookEvery == 0) refresh_if_drifted();
   }
   return Status::solved;
 }
