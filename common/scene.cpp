@@ -83,8 +83,13 @@ Scene read_checked(const Section& root, const SceneSource& source) {
     scene.ccd.warm_start = ccd.get_or(boolean_value, "warm_start", scene.ccd.warm_start);
     scene.ccd.max_iterations = ccd.get_or(integer_value, "max_iterations", scene.ccd.max_iterations);
   }
-  if (root.has("solver"))
-    scene.solver.method = root.section("solver").get_or(text_value, "method", scene.solver.method);
+  if (root.has("solver")) {
+    const Section solver = root.section("solver");
+    scene.solver.method = solver.get_or(text_value, "method", scene.solver.method);
+    scene.solver.limit = solver.get_or(integer_value, "limit", scene.solver.limit);
+    scene.solver.tolerance = solver.get_or(number_value, "tolerance", scene.solver.tolerance);
+    scene.solver.compare = solver.get_or(boolean_value, "compare", scene.solver.compare);
+  }
   check_subject(root, source.chapter);
   if (root.has("shapes")) scene.shapes = read_shapes(root, source);
   if (root.has("bodies")) scene.bodies = read_bodies(root, scene.shapes);

@@ -80,6 +80,9 @@ struct CcdSpec {
 
 struct SolverSpec {
   std::string method = "dantzig";
+  int limit = 0;         // pivots, sweeps or steps; 0: the method's own
+  double tolerance = 0;  // the residual that ends an iterative method; 0: the method's own
+  bool compare = false;  // every other method too (chapter 3)
 };
 
 // A contact written by hand (chapter 3).

@@ -33,7 +33,10 @@ std::vector<SceneKey> build_table() {
   {"ccd.max_iterations", 1, on, "1000000", integer, "1", {1, 1e9}, "Advances (chapter 1) or pairs of nodes (later) per query before it ends as unresolved.", "10000", {}},
   {"ccd.warm_start", 1, 1, "true", boolean, "", {}, "GJK begins with the simplex of the pose before; false shows what that saves.", "false", {}},
   {"solver", 3, on, none, section, "", {}, "The solver of the contact equations.", "{method: dantzig}", {}},
-  {"solver.method", 3, on, "dantzig", choice, "", {}, "Algorithm that solves the LCP.", "dantzig", {"dantzig"}},
+  {"solver.method", 3, on, "dantzig", choice, "", {}, "Algorithm that solves the LCP.", "dantzig", {"dantzig", "lemke", "pgs", "interior_point"}},
+  {"solver.limit", 3, on, "the method's own", integer, "1", {1, 1e9}, "Pivots, sweeps or Newton steps after which the method ends as limit.", "1000", {}},
+  {"solver.tolerance", 3, on, "1.0e-10", number, "1", {0, 1, true}, "Residual at which pgs and interior_point are done; pivoting methods have no use for it.", "1.0e-12", {}},
+  {"solver.compare", 3, 3, "false", boolean, "", {}, "Solve the same LCP by every other method too, for solvers.csv.", "true", {}},
 
   {"shapes", 1, on, bodies_needed, named, "", {}, "Shapes by name; bodies refer to them.", "{ball: {sphere: {radius: 0.5}, mass: 1}}", {}},
   {"shapes.<name>.sphere", 1, on, one_kind, section, "", {}, "A ball about the shape's origin.", "{radius: 0.5}", {}},
@@ -103,10 +106,6 @@ const std::vector<SceneKey>& scene_keys() {
 
 const std::vector<LaterName>& later_names() {
   static const std::vector<LaterName> names = {
-      {"solver.method: lemke", 3, true},
-      {"solver.method: pgs", 3, true},
-      {"solver.method: psor", 3, true},
-      {"solver.method: newton", 3, true},
       {"gyroscopic", 4, true},
       {"drag", 4, true},
       {"sleep", 4, true},

@@ -165,7 +165,8 @@ Status DantzigCore<Real>::solve(const Attempt& attempt, const VecX* start, int m
   first_ = attempt.reversed ? n_ : 0;
   extent_ = 0;
 
-  if (start != nullptr || (attempt.predict && n_ >= kPredictFrom)) predict(start);
+  const bool may_guess = start != nullptr || (attempt.predict && n_ >= kPredictFrom);
+  if (may_guess && guess(start)) predict();
   for (int pass = 0; pass < kPasses; ++pass) {
     bool changed = false;
     for (int k = 0; k < n_; ++k) {

@@ -76,8 +76,8 @@ class DantzigCore {
   void leave(int position, bool upper);
   bool proves_infeasible(int d) const;
   // dantzig_predict.cpp
-  void predict(const VecX* start);
-  void guess(const VecX* start);
+  bool guess(const VecX* start);
+  void predict();
   int violations() const;
   void exchange_violated();
   void drop_violated();

@@ -21,10 +21,9 @@ constexpr int kShare = 48;
 // reached: the basis has w = 0 and z within the bounds, and other rows are done if w allows it, and wait if
 // not.
 template <class Real>
-void DantzigCore<Real>::predict(const VecX* start) {
+void DantzigCore<Real>::predict() {
   first_ = 0;
   extent_ = n_;
-  guess(start);
   int fewest = n_ + 1, patience = kPatience;
   while (true) {
     wanted_.clear();
@@ -52,9 +51,10 @@ void DantzigCore<Real>::predict(const VecX* start) {
   }
 }
 
-// The places of all rows, from a guess of z, or from what w asks for at z = 0.
+// The places of all rows, from a guess of z, or from what w asks for at z = 0. False, and none, if that is
+// more exchanges than the limit allows.
 template <class Real>
-void DantzigCore<Real>::guess(const VecX* start) {
+bool DantzigCore<Real>::guess(const VecX* start) {
   for (int i = 0; i < n_; ++i) {
     if (start != nullptr) {
       const Real z = (*start)[i] * scale_[i];
@@ -68,6 +68,10 @@ void DantzigCore<Real>::guess(const VecX* start) {
     }
     pivots_ += place(i) == Place::basis ? 1 : 0;
   }
+  if (pivots_ <= max_pivots_) return true;
+  pivots_ = 0;
+  place_.assign(static_cast<std::size_t>(n_), Place::waiting);
+  return false;
 }
 
 // How many rows the present places are wrong for.

@@ -4,10 +4,10 @@
 #include <chrono>
 #include <optional>
 
-#include "ch03_impulse_lcp/dantzig.hpp"
 #include "ch03_impulse_lcp/delassus.hpp"
 #include "ch03_impulse_lcp/impact.hpp"
 #include "ch03_impulse_lcp/matrix_market.hpp"
+#include "ch03_impulse_lcp/solver.hpp"
 #include "common/program.hpp"
 #include "common/shape.hpp"
 
@@ -26,38 +26,62 @@ struct TimedResult {
   std::int64_t ns = 0;
 };
 
-TimedResult solve_timed(const Lcp& problem) {
+TimedResult solve_timed(const Lcp& problem, Method method, const SolverSpec& spec) {
   const std::int64_t start = now_ns();
-  LcpResult lcp = solve_dantzig(problem);
+  LcpResult lcp = solve(problem, method, {.limit = spec.limit, .tolerance = spec.tolerance});
   return {std::move(lcp), now_ns() - start};
 }
 
-// solution.csv, solvers.csv and their part of the summary.
-void write_solution(const TimedResult& solved, const RunContext& context, Summary& summary) {
+TimedResult solve_timed(const Lcp& problem, const SolverSpec& spec) {
+  return solve_timed(problem, method_named(spec.method), spec);
+}
+
+// solution.csv, solvers.csv (with every other method's row, if the scene asks for them) and their part of the
+// summary.
+void write_solution(const Lcp& problem, const TimedResult& solved, const SolverSpec& spec,
+                    const RunContext& context, Summary& summary) {
   const LcpResult& lcp = solved.lcp;
   TableWriter solution(context.out_dir / "solution.csv", {{"row", ""}, {"z", ""}, {"w", ""}});
   for (Eigen::Index i = 0; i < lcp.z.size(); ++i) solution.row({std::int64_t{i}, lcp.z[i], lcp.w[i]});
   solution.close();
+  summary.add("solver", spec.method);
+  summary.add("status", name(lcp.status));
+  summary.add("rows", std::int64_t{lcp.z.size()});
+  const Method chosen = method_named(spec.method);
+  const std::string unit = chosen == Method::pgs              ? "sweeps"
+                           : chosen == Method::interior_point ? "steps"
+                                                              : "pivots";
+  summary.add(unit, std::int64_t{lcp.pivots});
+  summary.add("residual", lcp.residual, "1");
+
   TableWriter solvers(
       context.out_dir / "solvers.csv",
       {{"solver", ""}, {"status", ""}, {"pivots_or_sweeps", ""}, {"residual", ""}, {"wall_ns", ""}});
-  solvers.row({"dantzig", name(lcp.status), std::int64_t{lcp.pivots}, lcp.residual, solved.ns});
+  const auto add = [&](std::string_view method, const TimedResult& result) {
+    solvers.row({std::string(method), name(result.lcp.status), std::int64_t{result.lcp.pivots},
+                 result.lcp.residual, result.ns});
+  };
+  add(spec.method, solved);
+  for (const Method method : kMethods) {
+    if (!spec.compare || method == chosen) continue;
+    const TimedResult other = solve_timed(problem, method, spec);
+    add(name(method), other);
+    summary.add(std::string(name(method)),
+                fmt::format("{}, residual {:.2g}, {} pivots, sweeps or steps", name(other.lcp.status),
+                            other.lcp.residual, other.lcp.pivots));
+  }
   solvers.close();
-  summary.add("solver", "dantzig");
-  summary.add("status", name(lcp.status));
-  summary.add("rows", std::int64_t{lcp.z.size()});
-  summary.add("pivots", std::int64_t{lcp.pivots});
-  summary.add("residual", lcp.residual, "1");
 }
 
 // After the tables are written: a run without a solution ends with exit code 3 and says why.
-void require_solved(Status status) {
+void require_solved(Status status, const SolverSpec& spec) {
   if (status == Status::solved) return;
   const char* why = status == Status::no_solution
                         ? "the problem has no solution; this is proved by a certificate"
-                    : status == Status::unsuited ? "the matrix is not symmetric positive semidefinite"
-                                                 : "the pivot limit was reached or round-off won";
-  throw NumericalFailure(fmt::format("dantzig: {}: {}", name(status), why));
+                    : status == Status::unsuited ? "the matrix is not one that this method is made for"
+                    : status == Status::ray      ? "the method ended on a ray, which proves nothing"
+                                                 : "its limit was reached or round-off won";
+  throw NumericalFailure(fmt::format("{}: {}: {}", spec.method, name(status), why));
 }
 
 // A vector in a Matrix Market file: one column of n numbers.
@@ -71,7 +95,7 @@ VecX read_vector(const std::filesystem::path& file, Eigen::Index n) {
   return column;
 }
 
-int run_lcp(const LcpSpec& spec, const RunContext& context, Summary& summary) {
+int run_lcp(const LcpSpec& spec, const SolverSpec& solver, const RunContext& context, Summary& summary) {
   const MatX A = spec.matrix ? *spec.matrix : read_matrix_market(*spec.matrix_file);
   if (A.rows() != A.cols()) {
     const SourceMark where = spec.matrix_file ? SourceMark{spec.matrix_file->string(), 0, 0} : spec.where;
@@ -82,15 +106,15 @@ int run_lcp(const LcpSpec& spec, const RunContext& context, Summary& summary) {
   std::optional<VecX> known;
   if (spec.solution_file) known = read_vector(*spec.solution_file, A.rows());
 
-  const TimedResult solved = solve_timed({A, b});
-  write_solution(solved, context, summary);
+  const TimedResult solved = solve_timed({A, b}, solver);
+  write_solution({A, b}, solved, solver, context, summary);
   if (known && b.size() > 0) {
     // Velocities, not impulses: of a singular matrix z is not unique, w is.
     summary.add("largest difference of w from the given solution",
                 (solved.lcp.w - evaluate(A, b, *known)).lpNorm<Eigen::Infinity>());
   }
-  summary.counter("dantzig", 1, solved.ns);
-  require_solved(solved.lcp.status);
+  summary.counter(solver.method, 1, solved.ns);
+  require_solved(solved.lcp.status, solver);
   return 0;
 }
 
@@ -158,12 +182,16 @@ int run_contacts(const Scene& scene, const RunContext& context, Summary& summary
   }
 
   // Resolve the impact, keeping the first solve that succeeded, or the first of all, for the tables.
+  ImpactProblem problem = assemble(bodies, contacts);
   std::optional<TimedResult> shown;
   std::int64_t solver_runs = 0, solver_ns = 0;
-  const ImpactOptions options{.solver = [&](const Lcp& problem) {
-    const TimedResult solved = solve_timed(problem);
-    if (!shown || (shown->lcp.status != Status::solved && solved.lcp.status == Status::solved))
+  const ImpactOptions options{.solver = [&](const Lcp& rows) {
+    const TimedResult solved = solve_timed(rows, scene.solver);
+    if (!shown || (shown->lcp.status != Status::solved && solved.lcp.status == Status::solved)) {
       shown = solved;
+      problem.A = rows.A;
+      problem.b = rows.b;
+    }
     ++solver_runs;
     solver_ns += solved.ns;
     return solved.lcp;
@@ -172,12 +200,12 @@ int run_contacts(const Scene& scene, const RunContext& context, Summary& summary
   const std::int64_t start = now_ns();
   const ImpactResult impact = resolve_impact(bodies, contacts, options);
   const std::int64_t impact_ns = now_ns() - start;
-  if (!shown) {  // nothing approaches: the LCP of these contacts has the answer z = 0
-    const ImpactProblem problem = assemble(bodies, contacts);
-    shown = solve_timed({problem.A, problem.b});
-  }
+  const Lcp rows{problem.A, problem.b};
+  if (!shown) shown = solve_timed(rows, scene.solver);  // nothing approaches: the answer is z = 0
 
-  write_solution(*shown, context, summary);
+  write_solution(rows, *shown, scene.solver, context, summary);
+  write_matrix_market(context.out_dir / "A.mtx", problem.A);
+  write_matrix_market(context.out_dir / "b.mtx", problem.b);
   write_contacts(contacts, impact, context);
   summary.add("solves in the same instant", std::int64_t{impact.solves});
   summary.add("impulses", static_cast<std::int64_t>(impact.impulses.size()));
@@ -189,18 +217,18 @@ int run_contacts(const Scene& scene, const RunContext& context, Summary& summary
   summary.add("change that the law predicts", impact.energy_identity, "J");
   summary.add("fastest approach left", impact.fastest_approach, "m/s");
   summary.counter("impact", impact.solves, impact_ns);
-  summary.counter("dantzig", solver_runs, solver_ns);
-  require_solved(impact.status);
+  summary.counter(scene.solver.method, solver_runs, solver_ns);
+  require_solved(impact.status, scene.solver);
   return 0;
 }
 
 std::vector<Effect> explain(const Scene& scene) {
   const auto line = [](const SourceMark& mark) { return "declared at line " + std::to_string(mark.line); };
-  if (scene.lcp) return {{"lcp", line(scene.lcp->where), "solver (Dantzig)", 1}};
+  const std::string solver = "solver (" + scene.solver.method + ")";
+  if (scene.lcp) return {{"lcp", line(scene.lcp->where), solver, 1}};
   std::vector<Effect> effects;
   if (!scene.contacts.empty()) {
-    effects.push_back(
-        {"contacts", line(scene.contacts.front().where), "Delassus matrix, solver (Dantzig)", 1});
+    effects.push_back({"contacts", line(scene.contacts.front().where), "Delassus matrix, " + solver, 1});
   }
   if (const auto mark = scene.mark("restitution")) {
     effects.push_back({"restitution", line(*mark), "right-hand side (1 + epsilon) v", 0});
@@ -215,7 +243,8 @@ std::vector<Effect> explain(const Scene& scene) {
 }
 
 int run(const Scene& scene, const RunContext& context, Summary& summary) {
-  return scene.lcp ? run_lcp(*scene.lcp, context, summary) : run_contacts(scene, context, summary);
+  return scene.lcp ? run_lcp(*scene.lcp, scene.solver, context, summary)
+                   : run_contacts(scene, context, summary);
 }
 
 }  // namespace
@@ -225,8 +254,11 @@ int main(int argc, char** argv) {
       argc, argv,
       {.number = 3,
        .name = "ch03_impulse_lcp",
-       .purpose = "Finds the impulses of bodies that hit each other at many contacts at once, or solves "
-                  "a linear complementarity problem, by Dantzig's method.",
+       .purpose =
+           "Finds the impulses of bodies that hit each other at many contacts at once, or solves "
+           "a linear complementarity problem, by Dantzig's method or, with solver: {method: ...}, another; "
+           "solver: {compare: true} runs them all. The LCP of a scene with contacts is written as A.mtx, "
+           "b.mtx.",
        .example = "build/bin/ch03_impulse_lcp chapters/ch03_impulse_lcp/scenes/newtons_cradle.yaml",
        .explain = explain,
        .run = run});

@@ -1,9 +1,11 @@
 #include "ch03_impulse_lcp/matrix_market.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cmath>
+
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -181,6 +183,19 @@ MatX read_matrix_market(const std::filesystem::path& file) {
       array ? read_array(words, symmetric, rows, columns) : read_coordinates(words, symmetric, rows, columns);
   if (!words.next().empty()) words.refuse("more entries than the size line says; check the size line");
   return matrix;
+}
+
+void write_matrix_market(const std::filesystem::path& file, const MatX& matrix) {
+  std::ofstream out(file);
+  const bool symmetric = matrix.rows() == matrix.cols() && matrix.cols() > 1 && matrix == matrix.transpose();
+  out << "%%MatrixMarket matrix array real " << (symmetric ? "symmetric" : "general") << "\n"
+      << matrix.rows() << " " << matrix.cols() << "\n";
+  for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
+    for (Eigen::Index i = symmetric ? j : 0; i < matrix.rows(); ++i)
+      out << fmt::format("{:.17g}\n", matrix(i, j));
+  }
+  out.close();
+  if (!out) throw std::runtime_error(file.string() + ": cannot be written");
 }
 
 }  // namespace fc::lcp

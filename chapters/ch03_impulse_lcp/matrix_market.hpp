@@ -14,4 +14,8 @@ namespace fc::lcp {
 // than 10^8 entries when dense.
 MatX read_matrix_market(const std::filesystem::path& file);
 
+// Writes every entry with 17 digits, so that reading gives the same bits; of a symmetric matrix the lower
+// triangle. Throws std::runtime_error, naming the file, if that cannot be written.
+void write_matrix_market(const std::filesystem::path& file, const MatX& matrix);
+
 }  // namespace fc::lcp

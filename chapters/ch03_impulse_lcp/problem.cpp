@@ -37,9 +37,9 @@ bool small_enough(const Measures& m, Eigen::Index n) {
   return m.in_bounds && rounding <= 1e-3 * m.b_size && m.violation <= 1e-6 * m.b_size + rounding;
 }
 
-// certifies_no_solution(): what counts as A'y = 0, rows being scaled to a diagonal of 1 and |y|_1 = 1; and as
-// b'y < 0.
-constexpr double kCertificateSlack = 1e-10;
+// certifies_no_solution(), rows being scaled to a diagonal of 1: the size of z, against that of b, that no
+// solution has; and what counts as b'y < 0.
+constexpr double kHugeImpulse = 1e8;
 constexpr double kCertificateGap = 1e-9;
 
 // Where |A||z| is so many times |b|, the digits that cancel in A z + b are worth a longer sum.
@@ -125,8 +125,10 @@ bool certifies_no_solution(const Lcp& problem, const VecX& y) {
   clean /= size;
   const VecX Ay = (problem.A.transpose() * clean).cwiseQuotient(scale);
   const double largest = problem.boxed() ? Ay.lpNorm<Eigen::Infinity>() : Ay.maxCoeff();
-  const double gap = problem.b.dot(clean);
-  return largest <= kCertificateSlack && gap < -kCertificateGap * problem.b.cwiseAbs().dot(clean.cwiseAbs());
+  const double gap = -problem.b.dot(clean), b_size = problem.b.cwiseQuotient(scale).lpNorm<Eigen::Infinity>();
+  // 0 <= y'w = (A'y)'z - gap needs a z with sum z >= gap / largest.
+  return gap > kCertificateGap * problem.b.cwiseAbs().dot(clean.cwiseAbs()) &&
+         largest * kHugeImpulse * b_size <= gap;
 }
 
 // Column by column, as A lies in memory.

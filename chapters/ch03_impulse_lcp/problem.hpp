@@ -78,7 +78,8 @@ bool acceptable(const Lcp& problem, const VecX& z, const VecX& w);
 // Whether y, n, proves that a problem has no solution: every solution would have y'w >= 0, but y'w = (A'y)'z
 // + b'y is negative for every z that the bounds allow. That is so if b'y < 0 and A'y <= 0, y being >= 0; with
 // bounds other than z >= 0, if A'y = 0, and y has entries only towards where a row has no bound. Checked by
-// multiplication, to a relative 1e-10 for A'y = 0 and 1e-9 for b'y < 0: a smaller gap may be round-off in b.
+// multiplication. Round-off leaves something of A'y, so the claim is: a solution would need impulses more
+// than 1e8 times what b asks of single rows; and b'y must be below -1e-9 |b|'y, or it may be round-off in b.
 // Entries of y of the wrong sign count as 0.
 bool certifies_no_solution(const Lcp& problem, const VecX& y);
 

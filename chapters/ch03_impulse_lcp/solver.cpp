@@ -1,5 +1,8 @@
 #include "ch03_impulse_lcp/solver.hpp"
 
+#include <stdexcept>
+#include <string>
+
 #include "ch03_impulse_lcp/dantzig.hpp"
 #include "ch03_impulse_lcp/interior_point.hpp"
 #include "ch03_impulse_lcp/lemke.hpp"
@@ -19,6 +22,13 @@ std::string_view name(Method method) {
       return "interior_point";
   }
   return "dantzig";
+}
+
+Method method_named(std::string_view name) {
+  for (const Method method : kMethods) {
+    if (lcp::name(method) == name) return method;
+  }
+  throw std::invalid_argument("LCP: no method is called '" + std::string(name) + "'");
 }
 
 LcpResult solve(const Lcp& problem, Method method, const SolveOptions& options) {

@@ -21,6 +21,8 @@ inline constexpr std::array<Method, 4> kMethods = {Method::dantzig, Method::lemk
 
 // The words of `solver.method` and of solvers.csv: "dantzig", "lemke", "pgs", "interior_point".
 std::string_view name(Method method);
+// The method of that name. Throws std::invalid_argument for another word.
+Method method_named(std::string_view name);
 
 struct SolveOptions {
   int limit = 0;         // pivots, sweeps or steps; 0: the method's own, stated in its header

@@ -44,7 +44,7 @@ void solve_island(World& world, const Island& island, double now, StepReport& re
     for (const int body : {contact.body_a, contact.body_b}) states[body] = world.state_at(body, now);
   for (const int body : island.bodies) states[body] = world.state_at(body, now);
   const Totals before(states, island.bodies);
-  const lcp::ImpactResult impact = lcp::resolve_impact(states, island.contacts);
+  const lcp::ImpactResult impact = lcp::resolve_impact(states, island.contacts, world.impact);
   FC_CHECK(impact.status == lcp::Status::solved,
            std::string("the contacts of an instant could not be solved: ") + lcp::name(impact.status));
   const Totals after(states, island.bodies);

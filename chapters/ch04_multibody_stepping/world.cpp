@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "ch02_hull_hierarchy/inside.hpp"
+#include "ch03_impulse_lcp/solver.hpp"
 
 namespace fc::world {
 namespace {
@@ -60,6 +61,13 @@ World build_world(const Scene& scene) {
   for (const Shape& shape : world.shapes) world.models.push_back(hulls::build_model(shape));
   world.gravity = scene.gravity.value_or(Vec3::Zero());
   world.tolerance = scene.ccd.tolerance;
+  if (scene.solver.method != SolverSpec().method || scene.solver.limit > 0) {
+    const lcp::Method method = lcp::method_named(scene.solver.method);
+    const lcp::SolveOptions options{.limit = scene.solver.limit, .tolerance = scene.solver.tolerance};
+    world.impact.solver = [method, options](const lcp::Lcp& rows) {
+      return lcp::solve(rows, method, options);
+    };
+  }
   world.max_pairs = scene.ccd.max_iterations;
   for (const BodySpec& spec : scene.bodies)
     world.bodies.push_back({make_body(world.shapes[spec.shape], spec), 0, spec.shape, false});

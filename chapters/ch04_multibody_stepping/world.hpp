@@ -40,6 +40,7 @@ struct World {
   Vec3 gravity = Vec3::Zero();             // m/s^2; zero if the scene does not ask for any
   double tolerance = 1e-6;                 // m
   std::int64_t max_pairs = 1'000'000;      // of nodes, for one search; it then goes on from where it got to
+  lcp::ImpactOptions impact = {};          // the solver of an instant's contacts
 
   const hulls::Model& model_of(int body) const { return models[bodies[body].shape]; }
   double restitution_of(int a, int b) const {  // a pair takes the larger of its two shapes' values

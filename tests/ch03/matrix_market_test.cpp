@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <string>
 
 #include "common/errors.hpp"
@@ -77,6 +78,18 @@ TEST_F(MatrixMarket, RefusesBadInputAtItsLine) {
   EXPECT_NE(refusal("%%MatrixMarket matrix array real symmetric\n1 2\n1\n").find("square"),
             std::string::npos);
   EXPECT_THROW(read_matrix_market("/nonexistent.mtx"), InputError);
+}
+
+TEST(MatrixMarketFile, ReadsWhatItWrites) {
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / "fc_written.mtx";
+  const double third = 1.0 / 3, tiny = std::numeric_limits<double>::denorm_min();
+  for (const MatX& matrix :
+       {MatX{{third, -2e300}, {-2e300, tiny}}, MatX{{1, 2}, {third, 4}}, MatX{{third}, {2}}}) {
+    write_matrix_market(file, matrix);
+    EXPECT_EQ(read_matrix_market(file), matrix);
+  }
+  std::filesystem::remove(file);
+  EXPECT_THROW(write_matrix_market("/no/such/folder/A.mtx", MatX{{1}}), std::runtime_error);
 }
 
 }  // namespace

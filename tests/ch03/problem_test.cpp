@@ -7,6 +7,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "ch03_impulse_lcp/solver.hpp"
+
 namespace fc::lcp {
 namespace {
 
@@ -77,6 +79,31 @@ TEST(Acceptable, IsNotBoughtByAHugeImpulse) {
   const VecX w = evaluate(A, b, z);
   EXPECT_LT(residual({A, b}, z, w), 1e-12);
   EXPECT_FALSE(acceptable({A, b}, z, w));
+}
+
+TEST(Certificate, IsBelievedOnlyIfItProves) {
+  const MatX A{{1, -1}, {-1, 1}};
+  EXPECT_TRUE(certifies_no_solution({A, VecX{{-2, 1}}}, VecX{{1, 1}}));
+  EXPECT_TRUE(certifies_no_solution({A * 1e-8, VecX{{-2e5, 1e5}}}, VecX{{3, 3}}));
+  EXPECT_FALSE(certifies_no_solution({A, VecX{{-2, 2}}}, VecX{{1, 1}}));    // b'y = 0
+  EXPECT_FALSE(certifies_no_solution({A, VecX{{-2, 1}}}, VecX{{1, 0}}));    // A'y > 0 somewhere
+  EXPECT_FALSE(certifies_no_solution({A, VecX{{-2, 1}}}, VecX{{-1, -1}}));  // not y >= 0
+  EXPECT_FALSE(certifies_no_solution({A, VecX{{-2, 1}}}, VecX{{0, 0}}));
+}
+
+// A row that is all zero may carry any z: nearly all of y may stand there without proving anything of the
+// others.
+TEST(Certificate, IsNotBoughtByAHugeEntryThatDoesNothing) {
+  const MatX A{{18, 0}, {0, 0}};
+  EXPECT_FALSE(certifies_no_solution({A, VecX{{-2, 0}}}, VecX{{1e-11, 1}}));
+  EXPECT_EQ(solve({A, VecX{{-2, 0}}}, Method::interior_point).status, Status::solved);
+}
+
+TEST(Certificate, UsesOnlyWaysWithoutABound) {
+  const MatX A{{0}};
+  const VecX b{{-1}}, upper{{5}};
+  EXPECT_TRUE(certifies_no_solution({A, b}, VecX{{1}}));
+  EXPECT_FALSE(certifies_no_solution({A, b, nullptr, &upper}, VecX{{1}}));
 }
 
 TEST(CheckArguments, RefusesWhatIsNoProblem) {

@@ -138,6 +138,41 @@ TEST_F(Program, ReadsMatrixMarketFilesAndComparesWithTheSolution) {
   EXPECT_NE(errors().find("b.mtx:4:1"), std::string::npos) << errors();
 }
 
+TEST_F(Program, SolvesByTheMethodThatTheSceneNames) {
+  const std::string lcp = "lcp: {A: [[2, -1], [-1, 2]], b: [-2, 0]}\n";
+  for (const char* method : {"dantzig", "lemke", "pgs", "interior_point"}) {
+    ASSERT_EQ(run_text(lcp + "solver: {method: " + method + "}\n"), 0) << errors();
+    const auto rows = table("solvers.csv");
+    ASSERT_EQ(rows.size(), 2u);
+    EXPECT_EQ(rows[1][0], method);
+    EXPECT_EQ(rows[1][1], "solved");
+    EXPECT_NEAR(std::stod(table("solution.csv")[1][1]), 4.0 / 3, 1e-9);
+  }
+  EXPECT_EQ(run_text(lcp + "solver: {method: pgs, limit: 1}\n"), 3);
+  EXPECT_EQ(table("solvers.csv")[1][1], "limit");
+}
+
+TEST_F(Program, ComparesAllMethods) {
+  ASSERT_EQ(run_text("lcp: {A: [[1, 1], [1, 1]], b: [-1, -1]}\nsolver: {compare: true}\n"), 0) << errors();
+  const auto rows = table("solvers.csv");
+  ASSERT_EQ(rows.size(), 5u);
+  EXPECT_EQ(rows[1][0], "dantzig");  // the chosen one first
+  for (std::size_t i = 1; i < rows.size(); ++i) EXPECT_EQ(rows[i][1], "solved");
+  // Another method's failure is an answer, not the run's.
+  ASSERT_EQ(run_text("lcp: {A: [[0, 1], [-1, 0]], b: [-1, 1]}\nsolver: {method: lemke, compare: true}\n"), 0)
+      << errors();
+  EXPECT_EQ(table("solvers.csv")[2][1], "unsuited");
+}
+
+TEST_F(Program, WritesTheLcpOfAScene) {
+  ASSERT_EQ(run(scenes_ / "box_on_floor.yaml"), 0) << errors();
+  const std::string impulse = table("solution.csv")[1][1];
+  fs::copy_file(folder_ / "out/A.mtx", folder_ / "A.mtx");
+  fs::copy_file(folder_ / "out/b.mtx", folder_ / "b.mtx");
+  ASSERT_EQ(run_text("lcp: {matrix: A.mtx, vector: b.mtx}\n"), 0) << errors();
+  EXPECT_EQ(table("solution.csv")[1][1], impulse);
+}
+
 TEST_F(Program, WritesTheSameBytesAgain) {
   ASSERT_EQ(run(scenes_ / "box_on_floor.yaml"), 0);
   const std::string solution = read_text(folder_ / "out/solution.csv"),
