@@ -23,7 +23,7 @@ def curves(axes: plt.Axes, growth: Table, exponents: Table, family: str, values:
                                    zip(growth.text("family"), growth.text("method"), growth["target"])])
             fit = [x for f, m, t, x in zip(exponents.text("family"), exponents.text("method"), exponents["target"], exponents[power])
                    if f == family and m == method and t == target]
-            what = label + (f" to $10^{{{np.log10(target):.0f}}}$" if target > 0 else "") + (f": power {fit[0]:.2f}" if fit else "")
+            what = label + (f" to {target:.0e}" if target > 0 else "") + (f": power {fit[0]:.2f}" if fit else "")
             x, y = growth["rows"][rows], values[rows]
             axes.loglog(x, y, "--" if k else "-", color=colour, lw=1.3, marker=mark, ms=4, label=what)
             short = growth["residual"][rows] > max(target, 1e-10)

@@ -92,4 +92,57 @@ ImpactProblem assemble(std::span<const RigidBody> bodies, std::span<const Contac
   return problem;
 }
 
+DelassusOperator::DelassusOperator(std::span<const RigidBody> bodies, std::span<const Contact> contacts)
+    : changes_(bodies.size()) {
+  check_contacts(bodies, contacts);
+  for (const Contact& contact : contacts) {
+    const auto part = [&](int index) -> Part {
+      const RigidBody& body = bodies[static_cast<std::size_t>(index)];
+      if (body.is_static()) return {-1, Vec3::Zero(), Vec3::Zero(), 0};
+      const Vec3 arm = (contact.point - body.position).cross(contact.normal);
+      return {index, arm, body.inverse_inertia_world() * arm, body.inverse_mass};
+    };
+    rows_.push_back({contact.normal, part(contact.body_a), part(contact.body_b)});
+  }
+}
+
+// ANCHOR: operator
+void DelassusOperator::apply(const VecX& z, VecX& v) {
+  for (Change& change : changes_) change = {Vec3::Zero(), Vec3::Zero()};
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const double impulse = z[static_cast<Eigen::Index>(i)];
+    const auto push = [&](const Part& part, double along_n) {
+      if (part.body < 0) return;
+      Change& change = changes_[static_cast<std::size_t>(part.body)];
+      change.velocity += along_n * part.inverse_mass * rows_[i].normal;
+      change.spin += along_n * part.spin_change;
+    };
+    push(rows_[i].a, -impulse);
+    push(rows_[i].b, impulse);
+  }
+  v.resize(size());
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const auto speed = [&](const Part& part) {
+      if (part.body < 0) return 0.0;
+      const Change& change = changes_[static_cast<std::size_t>(part.body)];
+      return rows_[i].normal.dot(change.velocity) + part.arm.dot(change.spin);
+    };
+    v[static_cast<Eigen::Index>(i)] = speed(rows_[i].b) - speed(rows_[i].a);
+  }
+}
+// ANCHOR_END: operator
+
+VecX DelassusOperator::diagonal() const {
+  VecX diagonal(size());
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    double sum = 0;
+    for (const Part& part : {rows_[i].a, rows_[i].b}) {
+      if (part.body >= 0)
+        sum += part.inverse_mass * rows_[i].normal.squaredNorm() + part.arm.dot(part.spin_change);
+    }
+    diagonal[static_cast<Eigen::Index>(i)] = sum;
+  }
+  return diagonal;
+}
+
 }  // namespace fc::lcp

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "ch03_impulse_lcp/contact.hpp"
 
@@ -27,5 +28,39 @@ void check_contacts(std::span<const RigidBody> bodies, std::span<const Contact> 
 // Throws std::invalid_argument for a body index out of range, two equal bodies, a normal that is not unit, a
 // restitution outside [0, 1], or a number that is not finite.
 ImpactProblem assemble(std::span<const RigidBody> bodies, std::span<const Contact> contacts);
+
+// The same matrix as an operator: A z = J M^-1 J' z, from right to left. J' z gathers the impulses of each
+// body, M^-1 makes velocities of them, and J looks at these at each contact. That costs O(n + bodies), where
+// the entries of a heap's matrix cost up to O(n^2): all that methods need which only multiply by A.
+class DelassusOperator {
+ public:
+  // Throws as assemble() does. Keeps nothing of the arguments.
+  DelassusOperator(std::span<const RigidBody> bodies, std::span<const Contact> contacts);
+
+  Eigen::Index size() const { return static_cast<Eigen::Index>(rows_.size()); }
+  // v := A z. z, v: n, N s and m/s; takes nothing from the heap if v has n entries.
+  void apply(const VecX& z, VecX& v);
+  // A_ii, 1/kg.
+  VecX diagonal() const;
+
+ private:
+  // What a contact is for one of its bodies: its part of J's row, and of M^-1 J's column. Without the sign of
+  // A.
+  struct Part {
+    int body;          // -1: static
+    Vec3 arm;          // m, r x n
+    Vec3 spin_change;  // 1/(kg m), I^-1 (r x n)
+    double inverse_mass;
+  };
+  struct Row {
+    Vec3 normal;
+    Part a, b;
+  };
+  struct Change {
+    Vec3 velocity, spin;
+  };
+  std::vector<Row> rows_;
+  std::vector<Change> changes_;  // of the bodies' velocities, for one apply()
+};
 
 }  // namespace fc::lcp

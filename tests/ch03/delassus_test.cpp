@@ -5,6 +5,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <limits>
+#include <random>
 #include <stdexcept>
 
 #include "bodies.hpp"
@@ -51,6 +52,26 @@ TEST(Delassus, IsTheResponseToUnitImpulses) {
     EXPECT_EQ(problem.v_before[i], v);
     EXPECT_EQ(problem.b[i], (1 + contacts[static_cast<std::size_t>(i)].restitution) * v);
   }
+}
+
+TEST(DelassusOperator, IsTheMatrixWithoutItsEntries) {
+  std::mt19937_64 random(1);
+  for (int trial = 0; trial < 50; ++trial) {
+    const Heap heap = random_heap(random, 12, 3, 6, 1, trial % 2 == 0);
+    const MatX A = assemble(heap.bodies, heap.contacts).A;
+    DelassusOperator product(heap.bodies, heap.contacts);
+    ASSERT_EQ(product.size(), A.rows());
+    const VecX z = VecX::Random(A.rows());
+    VecX v;
+    product.apply(z, v);
+    EXPECT_LE((v - A * z).lpNorm<Eigen::Infinity>(), 1e-13 * (A.cwiseAbs() * z.cwiseAbs()).maxCoeff());
+    product.apply(VecX::Zero(A.rows()), v);  // nothing is left of the last one
+    EXPECT_EQ(v, VecX(VecX::Zero(A.rows())));
+    EXPECT_LE((product.diagonal() - A.diagonal()).lpNorm<Eigen::Infinity>(), 1e-14 * A.maxCoeff());
+  }
+  const std::vector<RigidBody> bodies{wall(), ball({0, 0, 0.5}, Vec3::Zero())};
+  const std::vector<Contact> bad{{0, 2, {0, 0, 0}, Vec3::UnitZ(), 0, 0}};
+  EXPECT_THROW(DelassusOperator(bodies, bad), std::invalid_argument);
 }
 
 TEST(Delassus, ContactsWithoutACommonMovingBodyDoNotCouple) {
