@@ -45,6 +45,12 @@ void solve_lower_transposed(const Matrix& L, int k, Real* x) {
   }
 }
 
+// to := to - factor from, for the entries first ... last - 1 of two columns.
+template <class Real>
+void subtract(Real* __restrict to, const Real* __restrict from, Real factor, int first, int last) {
+  for (int r = first; r < last; ++r) to[r] -= factor * from[r];
+}
+
 // Cuts row and column `position` out of the k by k triangle L; `cut` receives that column below its diagonal.
 template <class Matrix, class Real>
 void cut_out(Matrix& L, int k, int position, Real* cut) {
@@ -197,10 +203,8 @@ void BasisFactor<Real>::factor_symmetric(Real threshold) {
         diagonal.col(j).tail(width - j - 1).setZero();
         continue;
       }
-      for (int i = j + 1; i < width; ++i) {
-        const Real l = diagonal(i, j) / d;
-        for (int r = i; r < width; ++r) diagonal(r, i) -= l * diagonal(r, j);
-      }
+      Real* const column = &diagonal(0, j);
+      for (int i = j + 1; i < width; ++i) subtract(&diagonal(0, i), column, column[i] / d, i, width);
       diagonal.col(j).tail(width - j - 1) /= d;
     }
     if (below == 0) break;

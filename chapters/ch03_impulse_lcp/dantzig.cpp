@@ -31,9 +31,11 @@ constexpr std::array<Trial, 12> kTrials = {{{{1, true, false}, false},
                                             {{1e6, false, false}, false},
                                             {{1e6, false, true}, false}}};
 constexpr double kGoodResidual = 1e-12;
-// Above this residual, or while it falls, a solved basis is refined, so often at most. Plain double
-// arithmetic gives about epsilon sqrt(n).
+// Above this residual, or this error, a solved basis is refined, so often at most, as long as it becomes
+// better. Plain double arithmetic gives a residual of about epsilon sqrt(n), and |A||z| / |b| times that is
+// the error.
 constexpr double kRefined = 4e-15;
+constexpr double kRefinedError = 2e-14;
 constexpr int kRefinements = 2;
 
 }  // namespace
@@ -57,16 +59,21 @@ template <class Real>
 void run_trial(detail::DantzigCore<Real>& core, Verifier& verifier, const Lcp& problem,
                const detail::Attempt& attempt, const VecX* start, int max_pivots, LcpResult& result) {
   result.status = core.solve(attempt, start, max_pivots);
-  result.pivots = core.pivots();
   core.impulses(result.z);
   Verdict verdict = verifier.judge(problem, result.z, result.w);
-  for (int k = 0; k < kRefinements && result.status == Status::solved && !(verdict.residual <= kRefined);
-       ++k) {
+  const auto good = [&] { return verdict.residual <= kRefined && verdict.error <= kRefinedError; };
+  if (result.status == Status::solved && !good()) {
+    result.status = core.improve();
+    core.impulses(result.z);
+    verdict = verifier.judge(problem, result.z, result.w);
+  }
+  result.pivots = core.pivots();
+  for (int k = 0; k < kRefinements && result.status == Status::solved && !good(); ++k) {
     const VecX z = result.z, w = result.w;
     const bool inside = core.refine();
     core.impulses(result.z);
     const Verdict refined = verifier.judge(problem, result.z, result.w);
-    if (!inside || !(refined.residual < verdict.residual)) {
+    if (!inside || !(refined.error < verdict.error)) {
       result.z = z;
       result.w = w;
       break;

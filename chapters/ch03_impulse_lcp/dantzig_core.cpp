@@ -61,17 +61,22 @@ bool DantzigCore<Real>::load(const Lcp& problem) {
 template <class Real>
 bool DantzigCore<Real>::load_matrix() {
   const MatX& A = problem_->A;
+  for (int j = 0; j < n_; ++j) {
+    const double* const from = A.data() + static_cast<Eigen::Index>(j) * n_;
+    Real* const to = A_.data() + static_cast<Eigen::Index>(j) * A_.outerStride();
+    const Real column_scale = inverse_scale_[j];
+    const Real* const row_scale = inverse_scale_.data();
+    for (int i = 0; i < n_; ++i) to[i] = from[i] * (row_scale[i] * column_scale);
+  }
   symmetric_ = true;
   for (int J = 0; J < n_; J += kBlock) {
     for (int I = 0; I <= J; I += kBlock) {
-      for (int j = J; j < std::min(J + kBlock, n_); ++j) {
-        for (int i = I; i < std::min({I + kBlock, n_, j + 1}); ++i) {
-          const Real factor = inverse_scale_[i] * inverse_scale_[j];
-          const Real above = A(i, j) * factor, below = A(j, i) * factor;
-          if (!(std::abs(above - below) <= kAsymmetry)) symmetric_ = false;  // also an overflow
-          A_(i, j) = A_(j, i) = (above + below) / 2;
-        }
+      const int rows = std::min(kBlock, n_ - I), columns = std::min(kBlock, n_ - J);
+      int different = 0;
+      for (int j = J; j < J + columns; ++j) {
+        for (int i = I; i < I + rows; ++i) different += A_(i, j) != A_(j, i);
       }
+      if (different > 0) symmetrise(I, rows, J, columns);
     }
   }
   if (!symmetric_) {
@@ -86,6 +91,16 @@ bool DantzigCore<Real>::load_matrix() {
     if (A(i, i) < 0 || !A_.col(i).head(n_).isZero(0) || !A_.row(i).head(n_).isZero(0)) return false;
   }
   return true;
+}
+
+template <class Real>
+void DantzigCore<Real>::symmetrise(int first_row, int rows, int first_column, int columns) {
+  for (int j = first_column; j < first_column + columns; ++j) {
+    for (int i = first_row; i < std::min(first_row + rows, j); ++i) {
+      if (!(std::abs(A_(i, j) - A_(j, i)) <= kAsymmetry)) symmetric_ = false;  // also an overflow
+      A_(i, j) = A_(j, i) = (A_(i, j) + A_(j, i)) / 2;
+    }
+  }
 }
 
 template <class Real>
@@ -167,37 +182,51 @@ Status DantzigCore<Real>::solve(const Attempt& attempt, const VecX* start, int m
 
   const bool may_guess = start != nullptr || (attempt.predict && n_ >= kPredictFrom);
   if (may_guess && guess(start)) predict();
-  for (int pass = 0; pass < kPasses; ++pass) {
-    bool changed = false;
-    for (int k = 0; k < n_; ++k) {
-      const int d = attempt.reversed ? n_ - 1 - k : k;
-      if (place(d) == Place::basis) continue;
-      if (place(d) == Place::waiting) {
-        if (extent_ < n_) {  // it is met for the first time
-          ++extent_;
-          if (attempt.reversed) --first_;
-        }
-        w_[d] = w_of(d);
+  bool changed = false;
+  return drive_rows(attempt.reversed, changed);
+}
+
+// Drives every row that is not where its w allows it to stay.
+template <class Real>
+Status DantzigCore<Real>::drive_rows(bool reversed, bool& changed) {
+  for (int k = 0; k < n_; ++k) {
+    const int d = reversed ? n_ - 1 - k : k;
+    if (place(d) == Place::basis) continue;
+    if (place(d) == Place::waiting) {
+      if (extent_ < n_) {  // it is met for the first time
+        ++extent_;
+        if (reversed) --first_;
       }
-      if (violated(d)) {
-        changed = true;
-      } else if (place(d) != Place::waiting) {
-        continue;
-      }
-      switch (drive(d)) {
-        case Drive::done:
-          break;
-        case Drive::no_solution:
-          return Status::no_solution;
-        case Drive::limit:
-          return Status::limit;
-        case Drive::unsuited:
-          return Status::unsuited;
-      }
+      w_[d] = w_of(d);
     }
-    if (!changed) break;
+    if (violated(d)) {
+      changed = true;
+    } else if (place(d) != Place::waiting) {
+      continue;
+    }
+    switch (drive(d)) {
+      case Drive::done:
+        break;
+      case Drive::no_solution:
+        return Status::no_solution;
+      case Drive::limit:
+        return Status::limit;
+      case Drive::unsuited:
+        return Status::unsuited;
+    }
+  }
+  return Status::solved;
+}
+
+template <class Real>
+Status DantzigCore<Real>::improve() {
+  bool changed = true;
+  for (int pass = 0; changed && pass < kPasses; ++pass) {
     solve_basis();
     drop_violated();
+    changed = false;
+    const Status status = drive_rows(false, changed);
+    if (status != Status::solved) return status;
   }
   return Status::solved;
 }

@@ -42,6 +42,8 @@ class DantzigCore {
   Status solve(const Attempt& attempt, const VecX* start, int max_pivots);
   // n; within the bounds exactly.
   void impulses(VecX& z) const;
+  // Solves the basis afresh, and drives again what round-off has left violated, until nothing is.
+  Status improve();
   // One step of iterative refinement of the basis: its residual w is taken from the matrix as given in
   // extended precision. Afterwards solve's claim stands only if nothing left its bounds: returns that.
   bool refine();
@@ -64,6 +66,8 @@ class DantzigCore {
 
   void reserve(int n);
   bool load_matrix();
+  void symmetrise(int first_row, int rows, int first_column, int columns);
+  Status drive_rows(bool reversed, bool& changed);
   // dantzig_drive.cpp
   Drive drive(int d);
   void set_direction(int d, Real sign);
@@ -78,6 +82,8 @@ class DantzigCore {
   // dantzig_predict.cpp
   bool guess(const VecX* start);
   void predict();
+  void factor_basis();
+  void replace_violated();
   int violations() const;
   void exchange_violated();
   void drop_violated();

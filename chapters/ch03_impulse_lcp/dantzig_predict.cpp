@@ -10,8 +10,9 @@ namespace {
 // Exchanges of all violated rows at once that may fail to leave fewer of them before the method goes on row
 // by row.
 constexpr int kPatience = 3;
-// So few violated rows, as a share of the basis, are sooner done one by one than by another factorisation.
-constexpr int kShare = 48;
+// Rows that are exchanged one by one cost less than a new factorisation if there are fewer than this share of
+// the basis.
+constexpr int kShare = 6;
 
 }  // namespace
 
@@ -24,31 +25,42 @@ template <class Real>
 void DantzigCore<Real>::predict() {
   first_ = 0;
   extent_ = n_;
+  factor_basis();
   int fewest = n_ + 1, patience = kPatience;
   while (true) {
-    wanted_.clear();
-    for (int i = 0; i < n_; ++i) {
-      if (place(i) == Place::basis) {
-        wanted_.push_back(i);
-        place(i) = Place::waiting;
-      }
-      z_[i] = place(i) == Place::at_lower ? lower_[i] : place(i) == Place::at_upper ? upper_[i] : Real(0);
-    }
-    factor_.factor(wanted_, rank_rounding_);
-    for (const int i : factor_.rows()) place(i) = Place::basis;
     solve_basis();
-
     const int count = violations();
     patience = count < fewest ? kPatience : patience - 1;
     fewest = std::min(fewest, count);
-    if (count <= factor_.size() / kShare || patience == 0 || pivots_ + count > max_pivots_) break;
-    pivots_ += count;
-    exchange_violated();
+    if (count == 0 || patience == 0 || pivots_ + count > max_pivots_) break;
+    if (count * kShare < factor_.size()) {
+      exchange_violated();
+    } else {
+      pivots_ += count;
+      replace_violated();
+      factor_basis();
+    }
   }
   drop_violated();
   for (int i = 0; i < n_; ++i) {
     if (place(i) != Place::basis && violated(i)) place(i) = Place::waiting;
   }
+}
+
+// Factors the rows that are to be in the basis, and puts each z at its bound, the basis's at 0. Rows that
+// depend on others wait.
+template <class Real>
+void DantzigCore<Real>::factor_basis() {
+  wanted_.clear();
+  for (int i = 0; i < n_; ++i) {
+    if (place(i) == Place::basis) {
+      wanted_.push_back(i);
+      place(i) = Place::waiting;
+    }
+    z_[i] = place(i) == Place::at_lower ? lower_[i] : place(i) == Place::at_upper ? upper_[i] : Real(0);
+  }
+  factor_.factor(wanted_, rank_rounding_);
+  for (const int i : factor_.rows()) place(i) = Place::basis;
 }
 
 // The places of all rows, from a guess of z, or from what w asks for at z = 0. False, and none, if that is
@@ -83,14 +95,36 @@ int DantzigCore<Real>::violations() const {
   return count;
 }
 
+// Gives every violated row the other place, for factor_basis().
 template <class Real>
-void DantzigCore<Real>::exchange_violated() {
+void DantzigCore<Real>::replace_violated() {
   const Real slack = z_tolerance();
   for (int i = 0; i < n_; ++i) {
     if (place(i) != Place::basis) {
       if (violated(i)) place(i) = Place::basis;
     } else if (!within_bounds(i, slack)) {
       place(i) = z_[i] < lower_[i] ? Place::at_lower : Place::at_upper;
+    }
+  }
+}
+
+// The same by updates of the factor.
+template <class Real>
+void DantzigCore<Real>::exchange_violated() {
+  const Real slack = z_tolerance();
+  wanted_.clear();
+  for (int i = 0; i < n_; ++i) {
+    if (place(i) != Place::basis && violated(i)) wanted_.push_back(i);
+  }
+  for (int p = factor_.size() - 1; p >= 0; --p) {
+    const int i = factor_.row(p);
+    if (!within_bounds(i, slack)) leave(p, z_[i] > upper_[i]);
+  }
+  for (const int i : wanted_) {
+    if (factor_.schur(i) > rank_rounding_) {
+      enter(i);
+    } else {
+      place(i) = Place::waiting;
     }
   }
 }

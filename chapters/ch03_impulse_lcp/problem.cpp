@@ -71,7 +71,10 @@ void check_arguments(const Lcp& problem) {
                                 std::to_string(A.cols()) + ", the vector has " + std::to_string(b.size()) +
                                 " entries; n by n and n are needed");
   }
-  if (!A.allFinite()) throw std::invalid_argument("LCP: the matrix has an entry that is not finite");
+  // 0 times what is not finite is NaN; unlike a test of every entry, such a sum is done several entries at a
+  // time.
+  if ((A.array() * 0.0).sum() != 0)
+    throw std::invalid_argument("LCP: the matrix has an entry that is not finite");
   if (!b.allFinite()) throw std::invalid_argument("LCP: the vector has an entry that is not finite");
   for (const VecX* bound : {problem.lower, problem.upper}) {
     if (bound != nullptr && bound->size() != b.size()) {
@@ -177,7 +180,8 @@ Verdict Verifier::judge(const Lcp& problem, const VecX& z, VecX& w) {
     w = w_.head(n);
   }
   const Measures m = measure(problem, z, w);
-  return {ratio(m), small_enough(m, n)};
+  const double error = m.violation == 0 ? 0.0 : m.violation / m.b_size;
+  return {ratio(m), error, small_enough(m, n)};
 }
 
 double residual(const Lcp& problem, const VecX& z, const VecX& w) {

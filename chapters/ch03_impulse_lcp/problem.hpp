@@ -87,6 +87,7 @@ bool certifies_no_solution(const Lcp& problem, const VecX& y);
 // has met problems as large.
 struct Verdict {
   double residual = 0;
+  double error = 0;  // the same violation, as a ratio of max|b|: what an engineer would call the error in v+
   bool acceptable = false;
 };
 class Verifier {
