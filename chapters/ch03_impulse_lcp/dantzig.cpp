@@ -37,6 +37,8 @@ constexpr double kGoodResidual = 1e-12;
 constexpr double kRefined = 4e-15;
 constexpr double kRefinedError = 2e-14;
 constexpr int kRefinements = 2;
+// So many steps of z, each with its round-off, are made good by one solve of the basis.
+constexpr int kSteps = 16;
 
 }  // namespace
 
@@ -62,7 +64,7 @@ void run_trial(detail::DantzigCore<Real>& core, Verifier& verifier, const Lcp& p
   core.impulses(result.z);
   Verdict verdict = verifier.judge(problem, result.z, result.w);
   const auto good = [&] { return verdict.residual <= kRefined && verdict.error <= kRefinedError; };
-  if (result.status == Status::solved && !good()) {
+  if (result.status == Status::solved && (!good() || core.steps_since_solved() > kSteps)) {
     result.status = core.improve();
     core.impulses(result.z);
     verdict = verifier.judge(problem, result.z, result.w);

@@ -126,6 +126,7 @@ template <class Real>
 void DantzigCore<Real>::solve_basis() {
   first_ = 0;
   extent_ = n_;
+  pivots_solved_ = pivots_;
   set_w();
   const int k = factor_.size();
   for (int p = 0; p < k; ++p) basis_[p] = w_[factor_.row(p)];
@@ -169,7 +170,7 @@ Status DantzigCore<Real>::solve(const Attempt& attempt, const VecX* start, int m
   const double n = n_;
   rounding_ = static_cast<Real>(kRoundingUnits * std::sqrt(n + 16)) * kEpsilon;
   rank_rounding_ = static_cast<Real>(attempt.rank_factor * kRankUnits * (n + 4)) * kEpsilon;
-  pivots_ = 0;
+  pivots_ = pivots_solved_ = 0;
   max_pivots_ = max_pivots;
   lowest_schur_ = 0;
   z_sum_ = 0;

@@ -48,6 +48,8 @@ class DantzigCore {
   // extended precision. Afterwards solve's claim stands only if nothing left its bounds: returns that.
   bool refine();
   int pivots() const { return pivots_; }
+  // Exchanges since z was last found from the factor, not by steps.
+  int steps_since_solved() const { return pivots_ - pivots_solved_; }
   bool indefinite() const { return lowest_schur_ < -rank_rounding_; }
 
  private:
@@ -126,7 +128,7 @@ class DantzigCore {
   std::vector<char> barred_;  // rows outside that blocked, but depend on the basis: no exchange can help
   std::vector<int> wanted_;
   int first_ = 0, extent_ = 0;  // the rows that the drives have reached so far: the others have z = 0
-  int pivots_ = 0, max_pivots_ = 0;
+  int pivots_ = 0, max_pivots_ = 0, pivots_solved_ = 0;
   int zero_steps_ = 0;  // in a row: degenerate pivots
   Real lowest_schur_ = 0;
 };
