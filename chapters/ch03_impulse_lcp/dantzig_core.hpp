@@ -84,7 +84,7 @@ class DantzigCore {
   // dantzig_predict.cpp
   bool guess(const VecX* start);
   void predict();
-  void factor_basis();
+  int factor_basis();
   void replace_violated();
   int violations() const;
   void exchange_violated();

@@ -13,6 +13,9 @@ constexpr int kPatience = 3;
 // Rows that are exchanged one by one cost less than a new factorisation if there are fewer than this share of
 // the basis.
 constexpr int kShare = 6;
+// If more rows depend on the basis than this share of it, which of them push is for the drives to find:
+// exchanged together they only take turns.
+constexpr int kRedundant = 4;
 
 }  // namespace
 
@@ -25,20 +28,21 @@ template <class Real>
 void DantzigCore<Real>::predict() {
   first_ = 0;
   extent_ = n_;
-  factor_basis();
+  int dropped = factor_basis();
   int fewest = n_ + 1, patience = kPatience;
   while (true) {
     solve_basis();
     const int count = violations();
     patience = count < fewest ? kPatience : patience - 1;
     fewest = std::min(fewest, count);
-    if (count == 0 || patience == 0 || pivots_ + count > max_pivots_) break;
+    const bool redundant = dropped * kRedundant > factor_.size();
+    if (count == 0 || patience == 0 || redundant || pivots_ + count > max_pivots_) break;
     if (count * kShare < factor_.size()) {
       exchange_violated();
     } else {
       pivots_ += count;
       replace_violated();
-      factor_basis();
+      dropped = factor_basis();
     }
   }
   drop_violated();
@@ -48,9 +52,9 @@ void DantzigCore<Real>::predict() {
 }
 
 // Factors the rows that are to be in the basis, and puts each z at its bound, the basis's at 0. Rows that
-// depend on others wait.
+// depend on others wait: returns how many.
 template <class Real>
-void DantzigCore<Real>::factor_basis() {
+int DantzigCore<Real>::factor_basis() {
   wanted_.clear();
   for (int i = 0; i < n_; ++i) {
     if (place(i) == Place::basis) {
@@ -61,6 +65,7 @@ void DantzigCore<Real>::factor_basis() {
   }
   factor_.factor(wanted_, rank_rounding_);
   for (const int i : factor_.rows()) place(i) = Place::basis;
+  return static_cast<int>(wanted_.size()) - factor_.size();
 }
 
 // The places of all rows, from a guess of z, or from what w asks for at z = 0. False, and none, if that is
