@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -14,14 +15,19 @@ namespace {
 // column's largest) does not block; two ratios that differ by less than kTie (times the larger, or
 // absolutely) are the same.
 constexpr double kEntry = 1e-9;
+// Before a ray is believed, an entry must be smaller than this: what round-off leaves of zero.
+constexpr double kLeastEntry = 1e-14;
 constexpr double kTie = 1e-11;
 // How often the inverse is compared with the matrix, and from which error on it is made afresh.
 constexpr int kLookEvery = 16;
 constexpr double kDrift = 1e-11;
+// c is (1, ..., 1); if round-off, or a ray that proves nothing, ends the way from there, it is slanted so
+// much.
+constexpr std::array<double, 3> kSlants = {0, 1, 7};
 
 class Lemke {
  public:
-  explicit Lemke(const Lcp& problem);
+  Lemke(const Lcp& problem, double slant);
   Status run(int limit);
   int pivots() const { return pivots_; }
   // z in the problem's unit, and the rows that are in the basis with it.
@@ -34,7 +40,7 @@ class Lemke {
   // Unknowns by number: w_i is i, z_i is n + i, z_0 is 2 n.
   int complement(int unknown) const { return unknown < n_ ? unknown + n_ : unknown - n_; }
   void set_column(int unknown);
-  int leaving_row() const;
+  int leaving_row(double least) const;
   bool before(int i, int j) const;
   void exchange(int row, int entering);
   MatX basis_matrix() const;
@@ -49,11 +55,12 @@ class Lemke {
   MatX inverse_;            // B^-1, B the columns of the basic unknowns in w - A z - c z_0 = b
   VecX values_;             // B^-1 b: the basic unknowns, in the order of basis_
   VecX column_;             // B^-1 times the entering column
+  VecX cover_;              // c, in scaled rows
   std::vector<int> basis_;  // the unknown of each row
   int entering_ = -1, pivots_ = 0;
 };
 
-Lemke::Lemke(const Lcp& problem)
+Lemke::Lemke(const Lcp& problem, double slant)
     : problem_(problem),
       n_(static_cast<int>(problem.size())),
       scale_(n_),
@@ -61,6 +68,7 @@ Lemke::Lemke(const Lcp& problem)
       inverse_(MatX::Identity(n_, n_)),
       values_(problem.b),
       column_(n_),
+      cover_(n_),
       basis_(static_cast<std::size_t>(n_)) {
   for (int i = 0; i < n_; ++i) {
     basis_[static_cast<std::size_t>(i)] = i;
@@ -72,11 +80,13 @@ Lemke::Lemke(const Lcp& problem)
   size_ = n_ > 0 && !values_.isZero(0) ? values_.lpNorm<Eigen::Infinity>() : 1.0;
   values_ /= size_;
   b_ = values_;
+  // Multiples of the golden ratio, less their whole part, are spread evenly and in no order.
+  for (int i = 0; i < n_; ++i) cover_[i] = 1 + slant * std::fmod(0.6180339887498949 * (i + 1), 1.0);
 }
 
 void Lemke::set_column(int unknown) {
   if (unknown == 2 * n_) {
-    column_ = -inverse_.rowwise().sum();  // c = (1, ..., 1) in scaled rows
+    column_.noalias() = -(inverse_ * cover_);
   } else if (unknown >= n_) {
     column_.noalias() = -(inverse_ * A_.col(unknown - n_));
   } else {
@@ -101,8 +111,8 @@ bool Lemke::before(int i, int j) const {
   return false;
 }
 
-int Lemke::leaving_row() const {
-  const double smallest = kEntry * column_.lpNorm<Eigen::Infinity>();
+int Lemke::leaving_row(double least) const {
+  const double smallest = least * column_.lpNorm<Eigen::Infinity>();
   int row = -1;
   for (int i = 0; i < n_; ++i) {
     if (column_[i] > smallest && (row < 0 || before(i, row))) row = i;
@@ -128,7 +138,7 @@ MatX Lemke::basis_matrix() const {
   for (int p = 0; p < n_; ++p) {
     const int unknown = basis_[static_cast<std::size_t>(p)];
     if (unknown == 2 * n_) {
-      B.col(p).setConstant(-1);
+      B.col(p) = -cover_;
     } else if (unknown >= n_) {
       B.col(p) = -A_.col(unknown - n_);
     } else {
@@ -156,7 +166,7 @@ Status Lemke::run(int limit) {
   // z_0 enters for the row that needs it most, the last of them on a tie: then all others are w >= 0.
   int row = 0;
   for (int i = 1; i < n_; ++i) {
-    if (values_[i] <= values_[row]) row = i;
+    if (values_[i] / cover_[i] <= values_[row] / cover_[row]) row = i;
   }
   set_column(2 * n_);
   int left = basis_[static_cast<std::size_t>(row)];
@@ -166,7 +176,8 @@ Status Lemke::run(int limit) {
   while (left != 2 * n_) {
     if (pivots_ >= limit) return Status::limit;
     set_column(complement(left));
-    row = leaving_row();
+    row = leaving_row(kEntry);
+    if (row < 0) row = leaving_row(kLeastEntry);
     if (row < 0) return Status::ray;
     left = basis_[static_cast<std::size_t>(row)];
     exchange(row, entering_);
@@ -207,15 +218,24 @@ VecX Lemke::ray() const {
 LcpResult solve_lemke(const Lcp& problem, const SolveOptions& options) {
   check_arguments(problem);
   if (problem.boxed()) return refused(problem, Status::unsuited);
-  const int n = static_cast<int>(problem.size());
-  Lemke method(problem);
-  const Status status = method.run(options.limit > 0 ? options.limit : 100 + 50 * n);
-  LcpResult result = judged(problem, method.impulses(), status);
-  result.pivots = method.pivots();
-  if (status == Status::ray && certifies_no_solution(problem, method.ray()))
-    result.status = Status::no_solution;
-  if (status == Status::solved) polish(problem, method.active(), result);
-  return result;
+  const int limit = options.limit > 0 ? options.limit : 100 + 50 * static_cast<int>(problem.size());
+  LcpResult first;
+  int pivots = 0;
+  for (const double slant : kSlants) {
+    Lemke method(problem, slant);
+    const Status status = method.run(limit - pivots);
+    LcpResult result = judged(problem, method.impulses(), status);
+    pivots += method.pivots();
+    if (status == Status::solved) polish(problem, method.active(), result);
+    if (status == Status::ray && certifies_no_solution(problem, method.ray()))
+      result.status = Status::no_solution;
+    result.pivots = pivots;
+    if (result.status == Status::solved || result.status == Status::no_solution) return result;
+    if (slant == kSlants.front()) first = std::move(result);
+    if (pivots >= limit) break;
+  }
+  first.pivots = pivots;
+  return first;
 }
 
 }  // namespace fc::lcp

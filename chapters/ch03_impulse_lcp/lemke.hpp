@@ -9,6 +9,8 @@ namespace fc::lcp {
 // the artificial unknown z_0 >= 0, w = A z + b + c z_0 has the obvious solution z = 0, w >= 0 for a large
 // z_0; pivots that keep z_i w_i = 0 then follow the only way that leads from there, until z_0 is 0. Ties are
 // decided lexicographically, as if b had been disturbed by ever smaller amounts: so no basis comes twice.
+// c is (1, ..., 1) in scaled rows; where the way from there ends without a solution or a proof of its
+// absence, two other c are tried.
 //   A: n by n; for positive semidefinite, P- and strictly copositive matrices the way ends in a solution if
 //   there is one. limit: pivots; 0 means 100 + 50 n. tolerance and start are ignored.
 // Status: solved; no_solution, where the ray at the end is a certificate; ray, where it proves nothing (a
