@@ -24,7 +24,7 @@ std::vector<Answer> solve_two(const Mat2& A, const Vec2& b) {
   }
 
   // Both push: Cramer's rule. A tie, z_i = 0, is the answer of one of the cases above.
-  const double det = A(0, 0) * A(1, 1) - A(0, 1) * A(1, 0), sign = det < 0 ? -1 : 1;
+  const double det = A(0, 0) * A(1, 1) - A(0, 1) * A(1, 0);
   const double z0 = A(0, 1) * b[1] - A(1, 1) * b[0], z1 = A(1, 0) * b[0] - A(0, 0) * b[1];
   if (det != 0) answers.push_back({Vec2(z0 / det, z1 / det), Vec2::Zero()});
   return answers;
