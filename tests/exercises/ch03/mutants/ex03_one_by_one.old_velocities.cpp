@@ -1,8 +1,7 @@
-// Caught by: Ex03OneByOne.ABallBesideAWall
-// Every contact is served with the velocities from before the first hit of the round, as in Jacobi's method.
+// Caught by: Ex03OneByOne.ASqueezeComesApart
+// Every contact is served with its velocity from before the round, as in Jacobi's method.
 #include "ex03_one_by_one.hpp"
 
-#include <algorithm>
 #include <vector>
 
 namespace fc::exercises {
@@ -35,9 +34,8 @@ Sequence resolve_one_by_one(std::span<RigidBody> bodies, std::span<const lcp::Co
     return lcp::contact_velocity(bodies, contacts[static_cast<std::size_t>(i)]);
   };
 
-  int next = 0;  // where the search begins
+  int next = 0, last = n;  // where the search begins, and who was hit last
   std::vector<double> old(contacts.size());
-  for (int i = 0; i < n; ++i) old[static_cast<std::size_t>(i)] = velocity(i);
   while (true) {
     // Find who is hit: the first from `next` on, or the fastest of all. Going round once is enough to know
     // that nobody is left.
@@ -56,9 +54,12 @@ Sequence resolve_one_by_one(std::span<RigidBody> bodies, std::span<const lcp::Co
     }
     if (sequence.hits == most) return sequence;
 
+    if (chosen <= last)
+      for (int i = 0; i < n; ++i) old[static_cast<std::size_t>(i)] = velocity(i);
+    last = chosen;
     const lcp::Contact& contact = contacts[static_cast<std::size_t>(chosen)];
     hit(bodies[static_cast<std::size_t>(contact.body_a)], bodies[static_cast<std::size_t>(contact.body_b)],
-        contact, std::min(v, old[static_cast<std::size_t>(chosen)]));
+        contact, old[static_cast<std::size_t>(chosen)]);
     ++sequence.hits;
     next = (chosen + 1) % n;
   }
