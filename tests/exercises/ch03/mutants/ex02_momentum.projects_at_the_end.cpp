@@ -1,5 +1,5 @@
-// Caught by: Ex02Momentum.NeverPulls
-// The point ahead need not be a possible one.
+// Caught by: Ex02Momentum.ManySeparateAndSomePush
+// Solves the linear system, and cuts what pulls.
 #include "ex02_momentum.hpp"
 
 #include <algorithm>
@@ -32,7 +32,7 @@ VecX momentum_gradients(Products& A, const VecX& b, double largest, int products
   double t = 1;
   for (int k = 0; k < products; ++k) {
     const VecX gradient = A.times(ahead) + b;
-    const VecX next = (ahead - step * gradient).cwiseMax(0.0);
+    const VecX next = ahead - step * gradient;
     const VecX move = next - z;
     // The momentum carries us uphill: it has served, and begins anew.
     if (gradient.dot(move) > 0) t = 1;
@@ -41,7 +41,7 @@ VecX momentum_gradients(Products& A, const VecX& b, double largest, int products
     t = t_next;
     z = next;
   }
-  return ahead;
+  return z.cwiseMax(0.0);
 }
 
 }  // namespace fc::exercises
