@@ -84,7 +84,7 @@ TEST(Ex05Scrape, SpinIsBraked) {
   RigidBody body = ball({0, 0, -1}, {0, 8, 0});  // the lower side moves backwards
   const Scrape j = scrape(body, floor(0.5, 0.2));
   ASSERT_TRUE(j.found);
-  EXPECT_NEAR(j.along, 0.6, 1e-12) << "N s: 0.2 * 3, forwards: a ball with back spin... turned round";
+  EXPECT_NEAR(j.along, 0.6, 1e-12) << "N s: 0.2 * 3, forwards";
   EXPECT_NEAR(body.velocity.x(), 0.3, 1e-12) << "m/s";
 }
 

@@ -1,4 +1,4 @@
-// Caught by: Ex05Scrape.AFastBallSlides
+// Caught by: Ex05Scrape.KeepsTheLawForBoxes
 // Restitution is applied to the tangents, too.
 #include "ex05_scrape.hpp"
 

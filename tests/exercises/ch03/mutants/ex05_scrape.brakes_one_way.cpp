@@ -1,4 +1,4 @@
-// Caught by: Ex05Scrape.SpinIsBraked
+// Caught by: Ex05Scrape.AFastBallSlides
 // Friction has a lower bound of zero, like a contact.
 #include "ex05_scrape.hpp"
 

@@ -45,7 +45,7 @@ Scrape scrape(RigidBody& body, const Touch& touch) {
     next.head(rows) = result.z;
     const double change = (A * (next - z)).lpNorm<Eigen::Infinity>();
     z = next;
-    if (round < 1) continue;
+    if (change > 1e-12 * speed && round < 1) continue;
 
     for (int i = 0; i < 3; ++i) {
       body.velocity += body.inverse_mass * z[i] * directions[i];
