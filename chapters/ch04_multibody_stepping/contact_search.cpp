@@ -25,10 +25,6 @@ bool out_of_reach(const World& world, const Pair& pair, const ca::Motion& a, con
   return (b.position - a.position).norm() > reach + travel + world.tolerance;
 }
 
-bool immovable(const Body& body) {
-  return body.held || body.state.is_static();
-}
-
 // The contacts of one pair at time `now`; none if it does not touch.
 std::vector<lcp::Contact> contacts_of(const World& world, const Pair& pair, double now) {
   const ca::Motion motion_a = world.motion(pair.a, now), motion_b = world.motion(pair.b, now);
@@ -44,11 +40,10 @@ std::vector<lcp::Contact> contacts_of(const World& world, const Pair& pair, doub
 
 }  // namespace
 
-void find_next_contact(World& world, Pair& pair, double now, double dt, StepReport& report) {
-  pair.known = true;
+void find_next_contact(const World& world, Pair& pair, double now, double dt, StepReport& report) {
   pair.contact = pair.stalled = false;
   pair.time = dt;
-  if (immovable(world.bodies[pair.a]) && immovable(world.bodies[pair.b])) return;
+  if (world.stays(pair.a) && world.stays(pair.b)) return;
   const ca::Motion motion_a = world.motion(pair.a, now), motion_b = world.motion(pair.b, now);
   if (out_of_reach(world, pair, motion_a, motion_b, dt - now)) return;
 
@@ -81,7 +76,7 @@ void find_next_contact(World& world, Pair& pair, double now, double dt, StepRepo
 Island touching_island(const World& world, const Pair& pair, double now, StepReport& report) {
   Island island;
   std::vector<int> open;
-  std::vector<char> seen_pair(world.pairs.size(), 0);
+  std::vector<int> seen;  // pairs
   const auto add_body = [&](int body) {
     if (world.bodies[body].state.is_static()) return;
     if (std::find(island.bodies.begin(), island.bodies.end(), body) != island.bodies.end()) return;
@@ -93,14 +88,15 @@ Island touching_island(const World& world, const Pair& pair, double now, StepRep
   while (!open.empty()) {
     const int body = open.back();
     open.pop_back();
-    for (const int p : world.pairs_of[body]) {
-      if (seen_pair[p]) continue;
-      seen_pair[p] = 1;
-      const std::vector<lcp::Contact> contacts = contacts_of(world, world.pairs[p], now);
+    for (const int number : world.schedule.pairs_of(body)) {
+      if (std::find(seen.begin(), seen.end(), number) != seen.end()) continue;
+      seen.push_back(number);
+      const Pair& other = world.schedule.pair(number);
+      const std::vector<lcp::Contact> contacts = contacts_of(world, other, now);
       if (contacts.empty()) continue;
       island.contacts.insert(island.contacts.end(), contacts.begin(), contacts.end());
-      add_body(world.pairs[p].a);
-      add_body(world.pairs[p].b);
+      add_body(other.a);
+      add_body(other.b);
     }
   }
   std::sort(island.bodies.begin(), island.bodies.end());

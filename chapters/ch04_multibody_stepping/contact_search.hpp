@@ -11,7 +11,7 @@ namespace fc::world {
 // collided) may spend half of the gap that it has left, so that it can part, or slide, and can never reach
 // zero. A pair whose gap is below a hundredth of the tolerance has nothing left to spend: it is clear if it
 // provably keeps half of its gap (below 64 rounding terms: all of it, but for those), else it is stalled.
-void find_next_contact(World& world, Pair& pair, double now, double dt, StepReport& report);
+void find_next_contact(const World& world, Pair& pair, double now, double dt, StepReport& report);
 
 // Bodies that are connected by touching pairs, and the contacts between them.
 struct Island {

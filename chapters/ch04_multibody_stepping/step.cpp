@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <stdexcept>
 
 #include "ch04_multibody_stepping/contact_search.hpp"
@@ -18,13 +19,14 @@ std::int64_t ns_since(Clock::time_point start) {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - start).count();
 }
 
+// What an impact must not change, and by how much round-off could have: of the bodies of one island.
 struct Totals {
   Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
   double linear_size = 0, angular_size = 0, kinetic = 0;
 
-  Totals(const std::vector<RigidBody>& bodies, const std::vector<int>& members) {
-    for (const int i : members) {
-      const RigidBody& body = bodies[i];
+  explicit Totals(std::span<const RigidBody> bodies) {
+    for (const RigidBody& body : bodies) {
+      if (body.is_static()) continue;
       const Vec3 own = body.inertia_world() * body.spin, orbit = body.position.cross(body.momentum());
       linear += body.momentum();
       angular += orbit + own;
@@ -35,62 +37,148 @@ struct Totals {
   }
 };
 
-// Solves everything that touches in the island, and starts the bodies anew from `now`.
-void solve_island(World& world, const Island& island, double now, StepReport& report,
-                  const OnImpact& on_impact) {
+// The bodies of an island with their states at one time, and its contacts between them by their places in
+// that list: those that can move first, then the static ones that they touch.
+struct Local {
+  std::vector<int> numbers;
+  std::vector<RigidBody> states;
+  std::vector<lcp::Contact> contacts;
+
+  Local(const World& world, const Island& island, double now)
+      : numbers(island.bodies), contacts(island.contacts) {
+    for (lcp::Contact& contact : contacts) {
+      contact.body_a = place_of(contact.body_a);
+      contact.body_b = place_of(contact.body_b);
+    }
+    for (const int body : numbers) states.push_back(world.state_at(body, now));
+  }
+  int place_of(int body) {
+    const auto found = std::find(numbers.begin(), numbers.end(), body);
+    if (found == numbers.end()) numbers.push_back(body);
+    return static_cast<int>(std::find(numbers.begin(), numbers.end(), body) - numbers.begin());
+  }
+};
+
+// One step from contact to contact: the world, the frame and the report at hand.
+class Stepper {
+ public:
+  Stepper(World& world, double dt, StepReport& report, const OnImpact& on_impact)
+      : world_(world), schedule_(world.schedule), dt_(dt), report_(report), on_impact_(on_impact) {}
+
+  // Opens the pairs whose swept boxes overlap in the frame, and asks each for its next contact.
+  void begin_frame() {
+    const int count = static_cast<int>(world_.bodies.size());
+    std::vector<Bounds> boxes;
+    boxes.reserve(world_.bodies.size());
+    for (int body = 0; body < count; ++body) boxes.push_back(world_.swept_bounds(body, 0, dt_));
+    schedule_.begin(boxes);
+    for (int body = 0; body < count; ++body)
+      meet(body, boxes[body], 0, [&](int other) { return other <= body; });
+  }
+
+  // The earliest event that is still true; false if none is left in the frame.
+  bool next(int& number, double& now) {
+    number = schedule_.next();
+    if (number >= 0) now = schedule_.pair(number).time;
+    return number >= 0;
+  }
+
+  void ask(int number, double now) {
+    find_next_contact(world_, schedule_.pair(number), now, dt_, report_);
+    schedule_.answered(number, dt_);
+  }
+
+  // Solves everything that touches in the island, and starts the bodies anew from `now`.
+  void solve(const Island& island, double now);
+
+  // Stops the island's bodies until the frame's end.
+  void hold(const Island& island, double now) {
+    std::vector<int> stopped;
+    for (const int body : island.bodies) {
+      if (world_.bodies[body].held) continue;
+      world_.bodies[body] = {world_.state_at(body, now), now, world_.bodies[body].shape, true};
+      stopped.push_back(body);
+    }
+    new_courses(stopped, now);
+  }
+
+ private:
+  // Opens and asks the pairs of a body with all whose boxes its own overlaps, but for those that `skip`
+  // knows.
+  template <class Skip>
+  void meet(int body, const Bounds& box, double now, Skip&& skip) {
+    others_.clear();
+    schedule_.overlapping(box, [&](int other) {
+      if (!skip(other) && !(world_.stays(body) && world_.stays(other))) others_.push_back(other);
+    });
+    std::sort(others_.begin(), others_.end());  // the tree's order is not the bodies'
+    for (const int other : others_) {
+      ++report_.pairs;
+      ask(schedule_.open(body, other), now);
+    }
+  }
+
+  // These bodies move in another way from now on: whatever was known of their pairs is void.
+  void new_courses(const std::vector<int>& bodies, double now) {
+    std::vector<Bounds> boxes;
+    for (const int body : bodies) {
+      boxes.push_back(world_.swept_bounds(body, now, dt_));
+      schedule_.replace(body, boxes.back());
+    }
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      const std::span<const int> done(bodies.data(),
+                                      i + 1);  // their pairs with this one are open, or it is itself
+      meet(bodies[i], boxes[i], now,
+           [&](int other) { return std::find(done.begin(), done.end(), other) != done.end(); });
+    }
+  }
+
+  World& world_;
+  Schedule& schedule_;
+  double dt_;
+  StepReport& report_;
+  const OnImpact& on_impact_;
+  std::vector<int> others_;
+};
+
+void Stepper::solve(const Island& island, double now) {
   const Clock::time_point start = Clock::now();
-  std::vector<RigidBody> states(world.bodies.size());
-  for (const lcp::Contact& contact : island.contacts)
-    for (const int body : {contact.body_a, contact.body_b}) states[body] = world.state_at(body, now);
-  for (const int body : island.bodies) states[body] = world.state_at(body, now);
-  const Totals before(states, island.bodies);
-  const lcp::ImpactResult impact = lcp::resolve_impact(states, island.contacts, world.impact);
+  Local local(world_, island, now);
+  const Totals before(local.states);
+  const lcp::ImpactResult impact = lcp::resolve_impact(local.states, local.contacts, world_.impact);
   FC_CHECK(impact.status == lcp::Status::solved,
            std::string("the contacts of an instant could not be solved: ") + lcp::name(impact.status));
-  const Totals after(states, island.bodies);
-  report.contacts += static_cast<int>(island.contacts.size()) * impact.solves;
-  report.impacts += static_cast<int>(impact.impulses.size());
-  report.lcp_rows += impact.rows;
-  report.solves += impact.solves;
-  report.lcp_residual = std::max(report.lcp_residual, impact.worst_residual);
-  report.energy_gain = std::max(report.energy_gain, after.kinetic - before.kinetic);
-  report.energy_error =
-      std::max(report.energy_error, std::abs(after.kinetic - before.kinetic - impact.energy_identity));
-  const bool free = std::none_of(island.contacts.begin(), island.contacts.end(), [&](const lcp::Contact& c) {
-    return states[c.body_a].is_static() || states[c.body_b].is_static();
-  });
+  const Totals after(local.states);
+  report_.contacts += static_cast<int>(island.contacts.size()) * impact.solves;
+  report_.impacts += static_cast<int>(impact.impulses.size());
+  report_.lcp_rows += impact.rows;
+  report_.solves += impact.solves;
+  report_.lcp_residual = std::max(report_.lcp_residual, impact.worst_residual);
+  report_.energy_gain = std::max(report_.energy_gain, after.kinetic - before.kinetic);
+  report_.energy_error =
+      std::max(report_.energy_error, std::abs(after.kinetic - before.kinetic - impact.energy_identity));
+  const bool free = local.numbers.size() == island.bodies.size();  // no static body takes part
   if (free && before.linear_size > 0)
-    report.momentum_error =
-        std::max({report.momentum_error, (after.linear - before.linear).norm() / before.linear_size,
+    report_.momentum_error =
+        std::max({report_.momentum_error, (after.linear - before.linear).norm() / before.linear_size,
                   (after.angular - before.angular).norm() / before.angular_size});
+  report_.lcp_ns += ns_since(start);
+
+  std::vector<int> changed;
   if (!impact.impulses.empty())
-    for (const int body : island.bodies) {
-      const bool same = world.bodies[body].held &&
-                        states[body].velocity == world.bodies[body].state.velocity &&
-                        states[body].spin == world.bodies[body].state.spin;
+    for (std::size_t i = 0; i < island.bodies.size(); ++i) {
+      Body& body = world_.bodies[island.bodies[i]];
+      const RigidBody& state = local.states[i];
+      const bool same = body.held && state.velocity == body.state.velocity && state.spin == body.state.spin;
       if (same) continue;  // a held body that was not hit stays held
-      if (world.bodies[body].held)
-        report.lost_time = std::max(report.lost_time, now - world.bodies[body].time);
-      world.bodies[body] = {states[body], now, world.bodies[body].shape, false};
-      for (const int p : world.pairs_of[body]) world.pairs[p].known = false;
+      if (body.held) report_.lost_time = std::max(report_.lost_time, now - body.time);
+      body = {state, now, body.shape, false};
+      changed.push_back(island.bodies[i]);
     }
-  if (on_impact)
+  if (on_impact_)
     for (const lcp::Impulse& impulse : impact.impulses)
-      on_impact({now, island.contacts[impulse.contact], impulse});
-  report.lcp_ns += ns_since(start);
-}
-
-void hold(World& world, const Island& island, double now) {
-  for (const int body : island.bodies) {
-    if (world.bodies[body].held) continue;
-    world.bodies[body] = {world.state_at(body, now), now, world.bodies[body].shape, true};
-    for (const int p : world.pairs_of[body]) world.pairs[p].known = false;
-  }
-}
-
-void find_all_next_contacts(World& world, double now, double dt, StepReport& report) {
-  for (Pair& pair : world.pairs)
-    if (!pair.known) find_next_contact(world, pair, now, dt, report);
+      on_impact_({now, island.contacts[impulse.contact], impulse});
+  new_courses(changed, now);
 }
 
 }  // namespace
@@ -101,30 +189,31 @@ StepReport step(World& world, double dt, const OnImpact& on_impact, const OnInst
   const Clock::time_point start = Clock::now();
   StepReport report;
   report.min_gap = std::numeric_limits<double>::infinity();
-  for (Pair& pair : world.pairs) pair.known = false;
 
   // ANCHOR: step
+  Stepper stepper(world, dt, report, on_impact);
+  stepper.begin_frame();
+  int next = -1;
   double now = 0;
-  while (true) {
+  while (stepper.next(next, now)) {
     // From contact to contact: the earliest of all pairs.
-    find_all_next_contacts(world, now, dt, report);
-    const auto next = std::min_element(world.pairs.begin(), world.pairs.end(),
-                                       [](const Pair& x, const Pair& y) { return x.time < y.time; });
-    if (next == world.pairs.end() || next->time >= dt) break;
-    now = next->time;
-    next->known = false;           // whatever happens now, this pair must be asked again
-    if (!next->contact) continue;  // proved clear only until now
-    const bool was_stalled = next->stalled;
+    const Pair pair = world.schedule.pair(next);
+    if (!pair.contact) {  // proved clear only until now
+      stepper.ask(next, now);
+      continue;
+    }
 
     // All contacts of this instant, together.
-    const Island island = touching_island(world, *next, now, report);
-    solve_island(world, island, now, report, on_impact);
+    const Island island = touching_island(world, pair, now, report);
+    stepper.solve(island, now);
     if (on_instant) on_instant(world, now);
 
+    // If nobody's course has changed, its event is gone, and it must be asked again.
+    const int again = world.schedule.find(pair.a, pair.b);
+    if (again < 0) continue;  // by now the two do not come near each other
+    if (world.schedule.pair(again).answers == pair.answers) stepper.ask(again, now);
     // No gap left to spend, and still closing in: impacts would pile up without end.
-    if (!was_stalled) continue;
-    find_next_contact(world, *next, now, dt, report);
-    if (next->stalled) hold(world, island, now);
+    if (pair.stalled && world.schedule.pair(again).stalled) stepper.hold(island, now);
   }
   // ANCHOR_END: step
 

@@ -2,35 +2,55 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "ch02_hull_hierarchy/inside.hpp"
 #include "ch03_impulse_lcp/solver.hpp"
 
 namespace fc::world {
 namespace {
 
-bool balls_apart(const World& world, int a, int b) {
-  const Vec3 apart = world.bodies[b].state.position - world.bodies[a].state.position;
-  return apart.norm() > world.shapes[world.bodies[a].shape].reach +
-                            world.shapes[world.bodies[b].shape].reach + world.tolerance;
+// What sums of a few coordinates may lose, as a share of them, with ample room.
+constexpr double kBoundsRounding = 1e-14;
+
+void refuse_overlap(const World& world, const Scene& scene, int a, int b) {
+  const hulls::Model& model_a = world.model_of(a);
+  const hulls::Model& model_b = world.model_of(b);
+  const ca::PairPose pose(world.motion(a, 0), world.motion(b, 0), 0);
+  const double gap = hulls::model_distance(model_a, model_b, pose, world.tolerance, world.tolerance).lower;
+  const bool inside =
+      gap >= -world.tolerance && hulls::one_inside_other(model_a, model_b, pose, world.tolerance);
+  if (gap >= -world.tolerance && !inside) return;
+  const std::string how = inside ? "one lies inside the other" : fmt::format("by about {:.3g} m", -gap);
+  throw InputError(
+      scene.bodies[b].where,
+      fmt::format("bodies {} and {} overlap at the start ({}), more than the tolerance of {:.3g} m; "
+                  "move them apart",
+                  a, b, how, world.tolerance));
 }
 
 void refuse_overlaps(const World& world, const Scene& scene) {
-  for (const Pair& pair : world.pairs) {
-    if (balls_apart(world, pair.a, pair.b)) continue;
-    const hulls::Model& model_a = world.model_of(pair.a);
-    const hulls::Model& model_b = world.model_of(pair.b);
-    const ca::PairPose pose(world.motion(pair.a, 0), world.motion(pair.b, 0), 0);
-    const double gap = hulls::model_distance(model_a, model_b, pose, world.tolerance, world.tolerance).lower;
-    const bool inside =
-        gap >= -world.tolerance && hulls::one_inside_other(model_a, model_b, pose, world.tolerance);
-    if (gap >= -world.tolerance && !inside) continue;
-    const std::string how = inside ? "one lies inside the other" : fmt::format("by about {:.3g} m", -gap);
-    throw InputError(
-        scene.bodies[pair.b].where,
-        fmt::format("bodies {} and {} overlap at the start ({}), more than the tolerance of {:.3g} m; "
-                    "move them apart",
-                    pair.a, pair.b, how, world.tolerance));
+  const int count = static_cast<int>(world.bodies.size());
+  std::vector<Bounds> boxes;
+  for (int body = 0; body < count; ++body) boxes.push_back(world.swept_bounds(body, 0, 0));
+  BoundsTree tree;
+  tree.build(boxes);
+  for (int a = 0; a < count; ++a) {
+    std::vector<int> others;
+    tree.overlapping(boxes[a], [&](int b) {
+      if (b > a && !(world.bodies[a].state.is_static() && world.bodies[b].state.is_static()))
+        others.push_back(b);
+    });
+    std::sort(others.begin(), others.end());
+    for (const int b : others) refuse_overlap(world, scene, a, b);
   }
+}
+
+// How far the shape reaches along its own axes, m: half of the box about its centre of mass that holds it.
+Vec3 half_extent(const Shape& shape) {
+  Vec3 half = Vec3::Zero();
+  for (const Vec3& vertex : shape.core.vertices) half = half.cwiseMax(vertex.cwiseAbs());
+  return half + Vec3::Constant(shape.radius);
 }
 
 }  // namespace
@@ -55,6 +75,32 @@ RigidBody World::state_at(int body, double time) const {
   return state;
 }
 
+Bounds World::swept_bounds(int body, double from, double to) const {
+  const ca::Motion course = motion(body, from);
+  const double end = to - from;
+  // What the body fills about its centre: a box if it does not turn, a ball if it does.
+  const Vec3 half = course.spin_rate == 0
+                        ? Vec3(course.rotation.cwiseAbs() * half_extents[bodies[body].shape])
+                        : Vec3(Vec3::Constant(shapes[bodies[body].shape].reach));
+  // The centre's path, a straight line or a parabola, along each axis: its ends, and its turning point if
+  // that lies between.
+  const Vec3 start = course.position, stop = course.position_at(end);
+  Bounds box{start.cwiseMin(stop), start.cwiseMax(stop)};
+  for (int axis = 0; axis < 3; ++axis) {
+    if (course.acceleration[axis] == 0) continue;
+    const double turn = -course.velocity[axis] / course.acceleration[axis];
+    if (!(turn > 0 && turn < end)) continue;
+    const double there = course.position_at(turn)[axis];
+    box.low[axis] = std::min(box.low[axis], there);
+    box.high[axis] = std::max(box.high[axis], there);
+  }
+  // Round-off of the positions and of the pose: some epsilons of the coordinates.
+  const double size =
+      std::max(box.low.cwiseAbs().maxCoeff(), box.high.cwiseAbs().maxCoeff()) + half.maxCoeff();
+  const Vec3 margin = half + Vec3::Constant(tolerance + kBoundsRounding * size);
+  return {box.low - margin, box.high + margin};
+}
+
 World build_world(const Scene& scene) {
   World world;
   world.shapes = build_shapes(scene, true);
@@ -71,14 +117,7 @@ World build_world(const Scene& scene) {
   world.max_pairs = scene.ccd.max_iterations;
   for (const BodySpec& spec : scene.bodies)
     world.bodies.push_back({make_body(world.shapes[spec.shape], spec), 0, spec.shape, false});
-  const int count = static_cast<int>(world.bodies.size());
-  world.pairs_of.resize(count);
-  for (int a = 0; a < count; ++a)
-    for (int b = a + 1; b < count; ++b) {
-      if (world.bodies[a].state.is_static() && world.bodies[b].state.is_static()) continue;
-      for (const int body : {a, b}) world.pairs_of[body].push_back(static_cast<int>(world.pairs.size()));
-      world.pairs.push_back({a, b});
-    }
+  for (const Shape& shape : world.shapes) world.half_extents.push_back(half_extent(shape));
   refuse_overlaps(world, scene);
   return world;
 }

@@ -7,6 +7,7 @@
 
 #include "ch02_hull_hierarchy/advance.hpp"
 #include "ch03_impulse_lcp/impact.hpp"
+#include "ch04_multibody_stepping/schedule.hpp"
 #include "common/scene.hpp"
 #include "common/shape.hpp"
 
@@ -22,25 +23,16 @@ struct Body {
   bool held = false;  // stays where it is until the frame's end, with its velocities: see step()
 };
 
-// Two bodies of which at least one can move, and what is known of their next contact in this frame.
-struct Pair {
-  int a = 0, b = 0;
-  double time = 0;       // s in the frame: nothing happens before
-  bool known = false;    // `time` holds for the bodies' present motions
-  bool contact = false;  // at `time` the pair reaches its gap (else it is clear until then)
-  bool stalled = false;  // it has no gap left to spend, and closes in within the frame
-};
-
 struct World {
   std::vector<Shape> shapes;
   std::vector<hulls::Model> models;  // one for each shape
+  std::vector<Vec3> half_extents;    // m, of each shape along its own axes, from its centre of mass
   std::vector<Body> bodies;
-  std::vector<Pair> pairs;                 // in order of (a, b)
-  std::vector<std::vector<int>> pairs_of;  // for each body, the numbers of its pairs
-  Vec3 gravity = Vec3::Zero();             // m/s^2; zero if the scene does not ask for any
-  double tolerance = 1e-6;                 // m
-  std::int64_t max_pairs = 1'000'000;      // of nodes, for one search; it then goes on from where it got to
-  lcp::ImpactOptions impact = {};          // the solver of an instant's contacts
+  Schedule schedule;                   // of the frame that is being stepped
+  Vec3 gravity = Vec3::Zero();         // m/s^2; zero if the scene does not ask for any
+  double tolerance = 1e-6;             // m
+  std::int64_t max_pairs = 1'000'000;  // of nodes, for one search; it then goes on from where it got to
+  lcp::ImpactOptions impact = {};      // the solver of an instant's contacts
 
   const hulls::Model& model_of(int body) const { return models[bodies[body].shape]; }
   double restitution_of(int a, int b) const {  // a pair takes the larger of its two shapes' values
@@ -50,6 +42,11 @@ struct World {
   ca::Motion motion(int body, double time) const;
   // The body's state moved to a time in the frame.
   RigidBody state_at(int body, double time) const;
+  // Whether it stays where it is until the frame's end.
+  bool stays(int body) const { return bodies[body].held || bodies[body].state.is_static(); }
+  // A box around everything that the body reaches between two times in the frame, and the tolerance around
+  // that.
+  Bounds swept_bounds(int body, double from, double to) const;
 };
 
 // Throws InputError: shapes (see build_shapes), and two bodies that overlap by more than the tolerance.
@@ -69,6 +66,7 @@ struct StepReport {
   double energy_error =
       0;  // J, the worst difference between the change at an impact and what the law predicts
   double energy_gain = 0;  // J, the largest gain of kinetic energy at an impact
+  std::int64_t pairs = 0;  // of bodies whose swept boxes overlap: looked at
   std::int64_t queries = 0, node_pairs = 0, ccd_ns = 0, lcp_ns = 0, step_ns = 0;
 };
 

@@ -1,0 +1,74 @@
+#include "ch04_multibody_stepping/schedule.hpp"
+
+#include <algorithm>
+#include <functional>
+
+namespace fc::world {
+
+void Schedule::begin(std::vector<Bounds> boxes) {
+  tree_.build(boxes);
+  pairs_.clear();
+  closed_.clear();
+  queue_.clear();
+  pairs_of_.resize(boxes.size());
+  for (std::vector<int>& pairs : pairs_of_) pairs.clear();
+}
+
+void Schedule::replace(int body, const Bounds& box) {
+  tree_.replace(body, box);
+  for (const int number : pairs_of_[static_cast<std::size_t>(body)]) {
+    const Pair& p = pair(number);
+    std::erase(pairs_of_[static_cast<std::size_t>(p.a == body ? p.b : p.a)], number);
+    close(number);
+  }
+  pairs_of_[static_cast<std::size_t>(body)].clear();
+}
+
+int Schedule::open(int a, int b) {
+  int number = static_cast<int>(pairs_.size());
+  if (closed_.empty()) {
+    pairs_.emplace_back();
+  } else {
+    number = closed_.back();
+    closed_.pop_back();
+  }
+  Pair& p = pair(number);
+  p.a = std::min(a, b);
+  p.b = std::max(a, b);
+  p.open = true;
+  for (const int body : {a, b}) pairs_of_[static_cast<std::size_t>(body)].push_back(number);
+  return number;
+}
+
+int Schedule::find(int a, int b) const {
+  for (const int number : pairs_of(a)) {
+    if (pair(number).a == b || pair(number).b == b) return number;
+  }
+  return -1;
+}
+
+void Schedule::close(int number) {
+  pair(number).open = false;
+  ++pair(number).answers;  // what it still has in the queue is void
+  closed_.push_back(number);
+}
+
+void Schedule::answered(int number, double end) {
+  Pair& p = pair(number);
+  ++p.answers;
+  if (!(p.time < end)) return;
+  queue_.push_back({p.time, p.a, p.b, number, p.answers});
+  std::push_heap(queue_.begin(), queue_.end(), std::greater<>());
+}
+
+int Schedule::next() {
+  while (!queue_.empty()) {
+    std::pop_heap(queue_.begin(), queue_.end(), std::greater<>());
+    const Event event = queue_.back();
+    queue_.pop_back();
+    if (pair(event.number).open && pair(event.number).answers == event.answer) return event.number;
+  }
+  return -1;
+}
+
+}  // namespace fc::world
