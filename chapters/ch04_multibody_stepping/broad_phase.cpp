@@ -17,7 +17,7 @@ void BoundsTree::build(std::span<const Bounds> boxes) {
 // Halves the bodies at the median of their boxes' middles, along the axis on which these are spread most.
 int BoundsTree::build_node(std::span<int> bodies, std::span<const Bounds> boxes, int parent) {
   const int index = static_cast<int>(nodes_.size());
-  nodes_.push_back({boxes[static_cast<std::size_t>(bodies[0])], -1, parent});
+  nodes_.push_back({boxes[static_cast<std::size_t>(bodies[0])], -1, static_cast<int>(bodies.size()), parent});
   if (bodies.size() == 1) {
     nodes_.back().body = bodies[0];
     leaf_of_[static_cast<std::size_t>(bodies[0])] = index;
@@ -50,6 +50,17 @@ int BoundsTree::build_node(std::span<int> bodies, std::span<const Bounds> boxes,
   node.left = left;
   node.right = right;
   return index;
+}
+
+void BoundsTree::refit(std::span<const Bounds> boxes) {
+  for (auto node = nodes_.rbegin(); node != nodes_.rend(); ++node) {  // children stand after their parents
+    if (node->body >= 0) {
+      node->box = boxes[static_cast<std::size_t>(node->body)];
+    } else {
+      node->box = nodes_[static_cast<std::size_t>(node->left)].box;
+      node->box.include(nodes_[static_cast<std::size_t>(node->right)].box);
+    }
+  }
 }
 
 void BoundsTree::replace(int body, const Bounds& box) {

@@ -5,8 +5,17 @@
 
 namespace fc::world {
 
-void Schedule::begin(std::vector<Bounds> boxes) {
-  tree_.build(boxes);
+// For so many frames the tree that was right for the first serves well enough.
+constexpr int kFramesOfATree = 16;
+
+void Schedule::begin(std::span<const Bounds> boxes) {
+  if (tree_.size() == static_cast<int>(boxes.size()) && frames_ < kFramesOfATree) {
+    tree_.refit(boxes);
+    ++frames_;
+  } else {
+    tree_.build(boxes);
+    frames_ = 0;
+  }
   pairs_.clear();
   closed_.clear();
   queue_.clear();

@@ -2,7 +2,7 @@
 // next contacts.
 #pragma once
 
-#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "ch04_multibody_stepping/broad_phase.hpp"
@@ -24,12 +24,17 @@ struct Pair {
 class Schedule {
  public:
   // A new frame: no pairs, no events.
-  void begin(std::vector<Bounds> boxes);
+  void begin(std::span<const Bounds> boxes);
   // The body's box has changed. Closes its pairs.
   void replace(int body, const Bounds& box);
   template <class Visit>
   void overlapping(const Bounds& box, Visit&& visit) const {
     tree_.overlapping(box, visit);
+  }
+
+  template <class Visit>
+  void overlapping_pairs(Visit&& visit) const {
+    tree_.overlapping_pairs(visit);
   }
 
   int open(int a, int b);
@@ -58,6 +63,7 @@ class Schedule {
   void close(int number);
 
   BoundsTree tree_;
+  int frames_ = 0;  // since the tree was made
   std::vector<Pair> pairs_;
   std::vector<int> closed_;  // numbers to be used again
   std::vector<std::vector<int>> pairs_of_;

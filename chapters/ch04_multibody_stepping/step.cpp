@@ -6,6 +6,8 @@
 #include <limits>
 #include <span>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "ch04_multibody_stepping/contact_search.hpp"
 #include "ch04_multibody_stepping/world.hpp"
@@ -72,8 +74,12 @@ class Stepper {
     boxes.reserve(world_.bodies.size());
     for (int body = 0; body < count; ++body) boxes.push_back(world_.swept_bounds(body, 0, dt_));
     schedule_.begin(boxes);
-    for (int body = 0; body < count; ++body)
-      meet(body, boxes[body], 0, [&](int other) { return other <= body; });
+    std::vector<std::pair<int, int>> pairs;
+    schedule_.overlapping_pairs([&](int a, int b) {
+      if (!(world_.stays(a) && world_.stays(b))) pairs.emplace_back(std::min(a, b), std::max(a, b));
+    });
+    std::sort(pairs.begin(), pairs.end());  // the tree's order is not the bodies'
+    for (const auto& [a, b] : pairs) open(a, b, 0);
   }
 
   // The earliest event that is still true; false if none is left in the frame.
@@ -103,6 +109,11 @@ class Stepper {
   }
 
  private:
+  void open(int a, int b, double now) {
+    ++report_.pairs;
+    ask(schedule_.open(a, b), now);
+  }
+
   // Opens and asks the pairs of a body with all whose boxes its own overlaps, but for those that `skip`
   // knows.
   template <class Skip>
@@ -111,11 +122,8 @@ class Stepper {
     schedule_.overlapping(box, [&](int other) {
       if (!skip(other) && !(world_.stays(body) && world_.stays(other))) others_.push_back(other);
     });
-    std::sort(others_.begin(), others_.end());  // the tree's order is not the bodies'
-    for (const int other : others_) {
-      ++report_.pairs;
-      ask(schedule_.open(body, other), now);
-    }
+    std::sort(others_.begin(), others_.end());
+    for (const int other : others_) open(body, other, now);
   }
 
   // These bodies move in another way from now on: whatever was known of their pairs is void.

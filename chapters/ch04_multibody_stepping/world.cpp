@@ -75,22 +75,37 @@ RigidBody World::state_at(int body, double time) const {
   return state;
 }
 
+ca::Motion World::course(int body, double time) const {
+  const Body& b = bodies[body];
+  ca::Motion path;
+  path.position = b.state.position;
+  if (b.held || b.state.is_static()) return path;
+  path.acceleration = gravity;
+  path.velocity = b.state.velocity;
+  const double elapsed = time - b.time;
+  path.position = path.position_at(elapsed);
+  path.velocity = path.velocity_at(elapsed);
+  return path;
+}
+
 Bounds World::swept_bounds(int body, double from, double to) const {
-  const ca::Motion course = motion(body, from);
+  const ca::Motion path = course(body, from);
   const double end = to - from;
   // What the body fills about its centre: a box if it does not turn, a ball if it does.
-  const Vec3 half = course.spin_rate == 0
-                        ? Vec3(course.rotation.cwiseAbs() * half_extents[bodies[body].shape])
-                        : Vec3(Vec3::Constant(shapes[bodies[body].shape].reach));
+  const Body& b = bodies[body];
+  const bool turns = !stays(body) && b.state.spin != Vec3::Zero();
+  const bool ball = turns || ball_radius[b.shape] > 0;
+  const Vec3 half = ball ? Vec3(Vec3::Constant(shapes[b.shape].reach))
+                         : Vec3(b.state.orientation.toRotationMatrix().cwiseAbs() * half_extents[b.shape]);
   // The centre's path, a straight line or a parabola, along each axis: its ends, and its turning point if
   // that lies between.
-  const Vec3 start = course.position, stop = course.position_at(end);
+  const Vec3 start = path.position, stop = path.position_at(end);
   Bounds box{start.cwiseMin(stop), start.cwiseMax(stop)};
   for (int axis = 0; axis < 3; ++axis) {
-    if (course.acceleration[axis] == 0) continue;
-    const double turn = -course.velocity[axis] / course.acceleration[axis];
+    if (path.acceleration[axis] == 0) continue;
+    const double turn = -path.velocity[axis] / path.acceleration[axis];
     if (!(turn > 0 && turn < end)) continue;
-    const double there = course.position_at(turn)[axis];
+    const double there = path.position_at(turn)[axis];
     box.low[axis] = std::min(box.low[axis], there);
     box.high[axis] = std::max(box.high[axis], there);
   }
@@ -117,7 +132,10 @@ World build_world(const Scene& scene) {
   world.max_pairs = scene.ccd.max_iterations;
   for (const BodySpec& spec : scene.bodies)
     world.bodies.push_back({make_body(world.shapes[spec.shape], spec), 0, spec.shape, false});
-  for (const Shape& shape : world.shapes) world.half_extents.push_back(half_extent(shape));
+  for (const Shape& shape : world.shapes) {
+    world.half_extents.push_back(half_extent(shape));
+    world.ball_radius.push_back(shape.kind == Shape::Kind::sphere ? shape.radius : 0.0);
+  }
   refuse_overlaps(world, scene);
   return world;
 }

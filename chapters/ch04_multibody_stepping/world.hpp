@@ -26,6 +26,7 @@ struct Body {
 struct World {
   std::vector<Shape> shapes;
   std::vector<hulls::Model> models;  // one for each shape
+  std::vector<double> ball_radius;   // m, of each shape that is a ball; else 0
   std::vector<Vec3> half_extents;    // m, of each shape along its own axes, from its centre of mass
   std::vector<Body> bodies;
   Schedule schedule;                   // of the frame that is being stepped
@@ -44,6 +45,8 @@ struct World {
   RigidBody state_at(int body, double time) const;
   // Whether it stays where it is until the frame's end.
   bool stays(int body) const { return bodies[body].held || bodies[body].state.is_static(); }
+  // The centre's place and velocity at a time in the frame, and its acceleration: all that matters of a ball.
+  ca::Motion course(int body, double time) const;
   // A box around everything that the body reaches between two times in the frame, and the tolerance around
   // that.
   Bounds swept_bounds(int body, double from, double to) const;
