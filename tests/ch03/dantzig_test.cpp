@@ -163,6 +163,7 @@ TEST(Dantzig, BeginsWithAnyGuess) {
     const LcpResult result = solve_dantzig({A, b}, {.start = &guess});
     ASSERT_EQ(result.status, Status::solved);
     EXPECT_NEAR((result.z - expected).norm(), 0, 1e-15);
+    EXPECT_LE(result.pivots, 4);  // the guess's rows, and what had to be exchanged: no second attempt
   }
   const VecX short_guess{{1}};
   EXPECT_THROW(solve_dantzig({A, b}, {.start = &short_guess}), std::invalid_argument);
