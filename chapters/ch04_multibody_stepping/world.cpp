@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
+#include <memory>
 
 #include "ch02_hull_hierarchy/inside.hpp"
+#include "ch03_impulse_lcp/dantzig.hpp"
 #include "ch03_impulse_lcp/solver.hpp"
 
 namespace fc::world {
@@ -44,6 +47,20 @@ void refuse_overlaps(const World& world, const Scene& scene) {
     std::sort(others.begin(), others.end());
     for (const int b : others) refuse_overlap(world, scene, a, b);
   }
+}
+
+// The scene's solver of an instant's contacts. Dantzig's keeps its memory from one instant to the next.
+std::function<lcp::LcpResult(const lcp::Lcp&)> solver_of(const SolverSpec& spec) {
+  if (spec.method == SolverSpec().method) {
+    return [solver = std::make_shared<lcp::DantzigSolver>(), limit = spec.limit](const lcp::Lcp& rows) {
+      lcp::LcpResult result;
+      solver->solve(rows, {.max_pivots = limit}, result);
+      return result;
+    };
+  }
+  const lcp::Method method = lcp::method_named(spec.method);
+  const lcp::SolveOptions options{.limit = spec.limit, .tolerance = spec.tolerance};
+  return [method, options](const lcp::Lcp& rows) { return lcp::solve(rows, method, options); };
 }
 
 // How far the shape reaches along its own axes, m: half of the box about its centre of mass that holds it.
@@ -122,13 +139,7 @@ World build_world(const Scene& scene) {
   for (const Shape& shape : world.shapes) world.models.push_back(hulls::build_model(shape));
   world.gravity = scene.gravity.value_or(Vec3::Zero());
   world.tolerance = scene.ccd.tolerance;
-  if (scene.solver.method != SolverSpec().method || scene.solver.limit > 0) {
-    const lcp::Method method = lcp::method_named(scene.solver.method);
-    const lcp::SolveOptions options{.limit = scene.solver.limit, .tolerance = scene.solver.tolerance};
-    world.impact.solver = [method, options](const lcp::Lcp& rows) {
-      return lcp::solve(rows, method, options);
-    };
-  }
+  world.impact.solver = solver_of(scene.solver);
   world.max_pairs = scene.ccd.max_iterations;
   for (const BodySpec& spec : scene.bodies)
     world.bodies.push_back({make_body(world.shapes[spec.shape], spec), 0, spec.shape, false});
