@@ -106,13 +106,8 @@ const std::vector<SceneKey>& scene_keys() {
 
 const std::vector<LaterName>& later_names() {
   static const std::vector<LaterName> names = {
-      {"gyroscopic", 4, true},
-      {"drag", 4, true},
-      {"sleep", 4, true},
-      {"sensor", 4, true},
-      {"kinematic", 4, true},
-      {"envelope", 5, false},
-      {"friction", 6, false},
+      {"gyroscopic", 4, true}, {"drag", 4, true},      {"sleep", 4, true},     {"sensor", 4, true},
+      {"kinematic", 4, true},  {"envelope", 5, false}, {"friction", 6, false},
   };
   return names;
 }
