@@ -7,18 +7,19 @@
 namespace fc {
 
 // A body's centre of mass, orientation and velocities in the world, and its inverse inertia. A static body
-// has zero inverse mass and inertia, and does not move.
+// has zero inverse mass and inertia, and does not move; a kinematic one has the same, and moves as it does.
 struct RigidBody {
   Vec3 position = Vec3::Zero();         // m, the centre of mass
   Quat orientation = Quat::Identity();  // unit; turns the shape's own axes into world axes
   Vec3 velocity = Vec3::Zero();         // m/s, of the centre of mass
   Vec3 spin = Vec3::Zero();             // rad/s, world axes
 
-  double mass = 0;                           // kg; 0 for a static body
+  double mass = 0;                           // kg; 0 for a static or kinematic body
   double inverse_mass = 0;                   // 1/kg
   Mat3 inertia_body = Mat3::Zero();          // kg m^2, about the centre of mass, shape axes
   Mat3 inverse_inertia_body = Mat3::Zero();  // 1/(kg m^2)
 
+  // No impulse moves it: static or kinematic.
   bool is_static() const { return inverse_mass == 0; }
   Pose pose() const { return {orientation.toRotationMatrix(), position}; }
 

@@ -69,13 +69,36 @@ void check_query_bodies(const Section& scene, const std::vector<BodySpec>& bodie
          fmt::format("a query needs exactly two bodies, this scene has {}; keep two", bodies.size()));
 }
 
+// Effects that are nothing but on: absent means off, and there is no second way to say so.
+bool read_switch(const Section& root, const char* key) {
+  if (!root.has(key)) return false;
+  if (!root.get(boolean_value, key))
+    refuse(root.entry(key).key_place,
+           fmt::format("an effect is off when its key is absent; remove '{}'", key));
+  return true;
+}
+
+void read_effects(const Section& root, Scene& scene) {
+  if (root.has("gravity")) scene.gravity = root.get(vector_value, "gravity");
+  if (root.has("restitution")) scene.restitution = root.get(number_value, "restitution");
+  scene.gyroscopic = read_switch(root, "gyroscopic");
+  if (root.has("drag")) {
+    const Section drag = root.section("drag");
+    scene.drag = {drag.get_or(number_value, "linear", 0.0), drag.get_or(number_value, "angular", 0.0)};
+  }
+  if (root.has("sleep")) {
+    const Section sleep = root.section("sleep");
+    scene.sleep = {sleep.get_or(number_value, "after", SleepSpec().after),
+                   sleep.get_or(number_value, "speed", SleepSpec().speed)};
+  }
+}
+
 Scene read_checked(const Section& root, const SceneSource& source) {
   Scene scene;
   scene.file = source.file;
   scene.name = root.get_or(text_value, "name", source.file.stem().string());
   if (root.has("step")) scene.step = read_step(root.section("step"));
-  if (root.has("gravity")) scene.gravity = root.get(vector_value, "gravity");
-  if (root.has("restitution")) scene.restitution = root.get(number_value, "restitution");
+  read_effects(root, scene);
   if (root.has("ccd")) {
     const Section ccd = root.section("ccd");
     scene.ccd.tolerance = ccd.get_or(number_value, "tolerance", scene.ccd.tolerance);

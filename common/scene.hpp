@@ -58,6 +58,8 @@ struct ShapeSpec {
 struct BodySpec {
   int shape = 0;  // index into Scene::shapes
   bool is_static = false;
+  bool is_kinematic = false;            // moves with its velocity and spin, whatever it hits
+  bool is_sensor = false;               // reports contacts, resolves none
   Vec3 position = Vec3::Zero();         // m, of the shape's own frame
   Quat orientation = Quat::Identity();  // normalised
   Vec3 velocity = Vec3::Zero();         // m/s, of the centre of mass
@@ -69,6 +71,15 @@ struct StepSpec {
   double dt = 0;        // s
   double duration = 0;  // s
   int frames = 0;       // round(duration / dt)
+};
+
+struct DragSpec {
+  double linear = 0, angular = 0;  // 1/s
+};
+
+struct SleepSpec {
+  double after = 0.25;  // s
+  double speed = 0.01;  // m/s
 };
 
 struct CcdSpec {
@@ -107,6 +118,9 @@ struct Scene {
   std::optional<StepSpec> step;
   std::optional<Vec3> gravity;        // m/s^2
   std::optional<double> restitution;  // [0, 1]
+  bool gyroscopic = false;
+  std::optional<DragSpec> drag;
+  std::optional<SleepSpec> sleep;
   CcdSpec ccd;
   SolverSpec solver;
   std::vector<ShapeSpec> shapes;                         // in file order

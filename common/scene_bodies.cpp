@@ -28,6 +28,10 @@ BodySpec read_body(const Section& body, const ShapeIndex& index) {
   spec.where = body.place().mark();
   spec.shape = shape_index(body, index);
   spec.is_static = body.get_or(boolean_value, "static", false);
+  spec.is_kinematic = body.get_or(boolean_value, "kinematic", false);
+  spec.is_sensor = body.get_or(boolean_value, "sensor", false);
+  if (spec.is_static && spec.is_kinematic)
+    refuse(body.entry("kinematic").key_place, "a static body does not move; remove 'kinematic' or 'static'");
   spec.position = body.get_or(vector_value, "position", spec.position);
   spec.orientation = body.get_or(quaternion_value, "orientation", spec.orientation);
   spec.velocity = body.get_or(vector_value, "velocity", spec.velocity);

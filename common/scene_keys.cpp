@@ -26,6 +26,13 @@ std::vector<SceneKey> build_table() {
   {"step.dt", 4, on, required, number, "s", {1e-9, 1e3}, "Length of a frame.", "0.01", {}},
   {"step.duration", 4, on, required, number, "s", {1e-9, 1e9}, "Simulated time.", "4", {}},
   {"gravity", 4, on, none, vector3, "m/s^2", any, "Acceleration of every body that moves; absent, none is computed.", "[0, 0, -9.81]", {}},
+  {"gyroscopic", 4, on, none, boolean, "", {}, "Free bodies turn by Euler's equations, in closed form; absent, their spin is constant. Only true.", "true", {}},
+  {"drag", 4, on, none, section, "", {}, "Bodies that move freely lose momentum to the air, in closed form.", "{linear: 0.1, angular: 0.1}", {}},
+  {"drag.linear", 4, on, "0", number, "1/s", {0, 1e6}, "Rate at which velocities decay: dv/dt = gravity - linear v.", "0.1", {}},
+  {"drag.angular", 4, on, "0", number, "1/s", {0, 1e6}, "Rate at which spins (with gyroscopic: angular momenta) decay.", "0.1", {}},
+  {"sleep", 4, on, none, section, "", {}, "Bodies that were held in place (lost_time), slow and for long enough, are at rest until something hits them.", "{after: 0.25, speed: 0.01}", {}},
+  {"sleep.after", 4, on, "0.25", number, "s", {0, 1e9, true}, "For how long a body must have been held without a break.", "0.25", {}},
+  {"sleep.speed", 4, on, "0.01", number, "m/s", {0, 1e9}, "No point of a body that falls asleep is faster.", "0.01", {}},
   {"restitution", 3, on, "0", number, "1", fraction, "Part of the approach speed that an impact returns; a pair takes the larger of its shapes' values.", "0.5", {}},
   {"ccd", 1, on, none, section, "", {}, "Continuous collision detection.", "{tolerance: 1.0e-6}", {}},
   {"ccd.tolerance", 1, on, "1e-6", number, "m", {0, 1e3, true}, "Gap at which two bodies are in contact.", "1.0e-6", {}},
@@ -65,6 +72,8 @@ std::vector<SceneKey> build_table() {
   {"bodies", 1, on, bodies_needed, list, "", {}, "Bodies, numbered from 0 in file order; exactly two in chapters 1 and 2.", "[{shape: ball}]", {}},
   {"bodies[].shape", 1, on, required, text, "", {}, "Name of the body's shape.", "ball", {}},
   {"bodies[].static", 1, on, "false", boolean, "", {}, "A static body never moves and needs no mass.", "true", {}},
+  {"bodies[].kinematic", 4, on, "false", boolean, "", {}, "A kinematic body keeps its velocity and spin, whatever it hits, and needs no mass.", "true", {}},
+  {"bodies[].sensor", 4, on, "false", boolean, "", {}, "A sensor reports what touches it (sensors.csv) and pushes nothing.", "true", {}},
   {"bodies[].position", 1, on, "[0, 0, 0]", vector3, "m", any, "Where the shape's own frame is.", "[0, 0, 1]", {}},
   {"bodies[].orientation", 1, on, "[1, 0, 0, 0]", quaternion, "1", any, "Quaternion [w, x, y, z] that turns the shape's frame; normalised.", "[1, 0, 0, 0]", {}},
   {"bodies[].velocity", 1, on, "[0, 0, 0]", vector3, "m/s", any, "Velocity of the centre of mass.", "[1, 0, 0]", {}},
@@ -105,10 +114,7 @@ const std::vector<SceneKey>& scene_keys() {
 }
 
 const std::vector<LaterName>& later_names() {
-  static const std::vector<LaterName> names = {
-      {"gyroscopic", 4, true}, {"drag", 4, true},      {"sleep", 4, true},     {"sensor", 4, true},
-      {"kinematic", 4, true},  {"envelope", 5, false}, {"friction", 6, false},
-  };
+  static const std::vector<LaterName> names = {{"envelope", 5, false}, {"friction", 6, false}};
   return names;
 }
 

@@ -215,7 +215,7 @@ std::vector<Shape> build_shapes(const Scene& scene, bool masses_needed) {
   if (!masses_needed) return shapes;
   for (const BodySpec& body : scene.bodies) {
     const ShapeSpec& spec = scene.shapes.at(body.shape);
-    require(body.is_static || shapes[body.shape].mass.mass > 0, spec.where,
+    require(body.is_static || body.is_kinematic || shapes[body.shape].mass.mass > 0, spec.where,
             called(spec) +
                 " belongs to a body that moves, but has no mass; add 'density' or 'mass', or make the body "
                 "'static: true'");
@@ -230,7 +230,7 @@ RigidBody make_body(const Shape& shape, const BodySpec& spec) {
   if (spec.is_static) return body;
   body.velocity = spec.velocity;
   body.spin = spec.spin;
-  if (shape.mass.mass > 0) body.set_mass(shape.mass);
+  if (shape.mass.mass > 0 && !spec.is_kinematic) body.set_mass(shape.mass);
   return body;
 }
 

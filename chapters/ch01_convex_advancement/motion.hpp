@@ -23,9 +23,30 @@ inline Mat3 rotation_about(const Vec3& axis, double angle) {
   return r;
 }
 
-// A body that flies: its centre of mass with constant acceleration, its axes with constant spin or freely.
+// What is left of a rate k (1/s) of decay: the integral of e^(-k s) over s in [0, t], in s; and the integral
+// of that, in s^2.
+inline double decayed_time(double k, double t) {
+  return k == 0 ? t : -std::expm1(-k * t) / k;
+}
+inline double decayed_square(double k, double t) {
+  // (x - 1 + e^-x)/x^2 t^2 with x = k t, as a series where the difference would lose digits.
+  const double x = k * t;
+  if (x > 0.5) return (x + std::expm1(-x)) / (k * k);
+  double term = 0.5, sum = 0.5;
+  for (int n = 3; n <= 16; ++n) sum += term *= -x / n;
+  return t * t * sum;
+}
+
+// A body that flies: its centre of mass with constant acceleration, its axes with constant spin or freely;
+// both may decay by drag.
 //   x(t) = position + velocity t + acceleration t^2/2,   R(t) = rotation(spin, t) R(0)  or
 //   free->rotation_at(t)
+//
+// Drag in closed form, with k = drag and s(t) = (1 - e^(-kt))/k: from dv/dt = acceleration - k v,
+//   v(t) = e^(-kt) velocity + s(t) acceleration,   x(t) = position + s(t) velocity + (t - s(t))/k
+//   acceleration,
+// and a torque of -k times the angular momentum (k = spin_drag) lets the body turn as it would without, but
+// slower and slower: after t it is where it would have been after s(t), with e^(-kt) of the spin.
 struct Motion {
   Vec3 position = Vec3::Zero();            // m, the centre of mass at t = 0, world
   Mat3 rotation = Mat3::Identity();        // shape axes to world axes at t = 0
@@ -35,6 +56,8 @@ struct Motion {
   Vec3 spin_axis = Vec3::UnitZ();          // spin / |spin|
   double spin_rate = 0;                    // |spin|
   std::shared_ptr<const TorqueFree> free;  // none: the spin is constant. Shared: a motion is copied often
+  double free_start = 0, free_rate = 1;    // s, and 1: where on its free motion the body is, and how fast
+  double drag = 0, spin_drag = 0;          // 1/s
 
   Motion() = default;
   explicit Motion(const RigidBody& body, const Vec3& acceleration_world = Vec3::Zero())
@@ -51,26 +74,82 @@ struct Motion {
   void turn_freely(const PrincipalInertia& inertia) {
     const TorqueFree turning(inertia, rotation, spin);
     free = turning.constant_spin() ? nullptr : std::make_shared<TorqueFree>(turning);
+    free_start = 0;
+    free_rate = 1;
   }
 
   Mat3 rotation_at(double t) const {
-    if (free) return free->rotation_at(t);
-    return spin_rate == 0 ? rotation : Mat3(rotation_about(spin_axis, spin_rate * t) * rotation);
+    if (free) return free->rotation_at(free_time(t));
+    return spin_rate == 0
+               ? rotation
+               : Mat3(rotation_about(spin_axis, spin_rate * decayed_time(spin_drag, t)) * rotation);
   }
-  Vec3 position_at(double t) const { return position + t * (velocity + 0.5 * t * acceleration); }
-  Vec3 velocity_at(double t) const { return velocity + t * acceleration; }
-  Vec3 spin_at(double t) const { return free ? free->spin_at(t) : spin; }
+  Vec3 position_at(double t) const {
+    if (drag > 0) return position + decayed_time(drag, t) * velocity + decayed_square(drag, t) * acceleration;
+    return position + t * (velocity + 0.5 * t * acceleration);
+  }
+  Vec3 velocity_at(double t) const {
+    if (drag > 0) return std::exp(-drag * t) * velocity + decayed_time(drag, t) * acceleration;
+    return velocity + t * acceleration;
+  }
+  Vec3 acceleration_at(double t) const {
+    return drag > 0 ? Vec3(std::exp(-drag * t) * (acceleration - drag * velocity)) : acceleration;
+  }
+  Vec3 spin_at(double t) const {
+    const Vec3 undamped = free ? Vec3(free_rate * free->spin_at(free_time(t))) : spin;
+    return spin_drag > 0 ? Vec3(std::exp(-spin_drag * t) * undamped) : undamped;
+  }
+  double free_time(double t) const { return free_start + free_rate * decayed_time(spin_drag, t); }
+  // The same motion, seen from t (s) on.
+  Motion later(double t) const {
+    Motion rest = *this;
+    rest.position = position_at(t);
+    rest.rotation = rotation_at(t);
+    rest.velocity = velocity_at(t);
+    rest.spin = spin_at(t);
+    rest.spin_rate = rest.spin.norm();
+    if (rest.spin_rate > 0) rest.spin_axis = rest.spin / rest.spin_rate;
+    rest.free_start = free_time(t);
+    if (spin_drag > 0) rest.free_rate = free_rate * std::exp(-spin_drag * t);
+    return rest;
+  }
   Pose pose_at(double t) const { return {rotation_at(t), position_at(t)}; }
 
-  // What holds at any time: the largest |w| and, for a fixed unit n, |n x w| in rad/s, the largest |dw/dt| in
-  // rad/s^2.
-  double spin_bound() const { return free ? free->spin_bound() : spin_rate; }
-  double turning_bound(const Vec3& n) const { return free ? free->turning_bound(n) : n.cross(spin).norm(); }
-  double spin_change_bound() const { return free ? free->spin_change_bound() : 0; }
+  // What holds at any time t >= 0: the largest |w| and, for a fixed unit n, |n x w| in rad/s, the largest
+  // |dw/dt| in rad/s^2, and how far the spin's direction wanders: |n x w(t2)| <= |n x w(t1)| + wander, t1 <
+  // t2.
+  double spin_bound() const { return free ? free_rate * free->spin_bound() : spin_rate; }
+  double turning_bound(const Vec3& n) const {
+    return free ? free_rate * free->turning_bound(n) : n.cross(spin).norm();
+  }
+  double spin_change_bound() const {
+    const double free_change = free ? free_rate * free_rate * free->spin_change_bound() : 0;
+    return free_change + spin_drag * spin_bound();
+  }
+  double wander() const { return free ? 2 * free_rate * free->across_bound() : 0; }
 
   // How far the rotation at t can be off, in units of 8 eps rad.
-  double turned(double t) const { return free ? 2 * (1 + free->spin_bound() * t) : spin_rate * t; }
+  double turned(double t) const {
+    return free ? 2 * (1 + free->spin_bound() * std::abs(free_time(t))) : spin_rate * t;
+  }
 };
+
+// A's velocity (m/s) and acceleration (m/s^2) less B's at time t. Differences are taken first, so that what
+// both have in common leaves no rounding. The acceleration keeps its direction and does not grow: what it is
+// along n at t, or zero, bounds it along n from then on (with drag, if it is the same for both, or one of
+// them has a constant velocity).
+inline Vec3 relative_acceleration(const Motion& a, const Motion& b, double t) {
+  if (a.drag == 0 && b.drag == 0) return a.acceleration - b.acceleration;
+  return a.acceleration_at(t) - b.acceleration_at(t);
+}
+inline Vec3 relative_velocity(const Motion& a, const Motion& b, double t) {
+  if (a.drag == 0 && b.drag == 0) return (a.velocity - b.velocity) + t * (a.acceleration - b.acceleration);
+  if (a.drag == b.drag) {
+    const double decay = std::exp(-a.drag * t), grown = decayed_time(a.drag, t);
+    return decay * (a.velocity - b.velocity) + grown * (a.acceleration - b.acceleration);
+  }
+  return a.velocity_at(t) - b.velocity_at(t);
+}
 
 // Both poses of a pair at one time, and B seen from A. Differences of positions and velocities are taken
 // before anything is rotated, so that a pair far from the world's origin keeps its digits.
@@ -89,7 +168,12 @@ struct PairPose {
         turned_b(b.turned(t)) {
     const Vec3 position = b.position - a.position, velocity = b.velocity - a.velocity;
     const Vec3 acceleration = b.acceleration - a.acceleration;
-    offset_world = position + t * (velocity + (0.5 * t) * acceleration);
+    if (a.drag == 0 && b.drag == 0)
+      offset_world = position + t * (velocity + (0.5 * t) * acceleration);
+    else if (a.drag == b.drag)
+      offset_world = position + decayed_time(a.drag, t) * velocity + decayed_square(a.drag, t) * acceleration;
+    else
+      offset_world = position + (b.position_at(t) - b.position) - (a.position_at(t) - a.position);
     travelled = position.norm() + t * (velocity.norm() + (0.5 * t) * acceleration.norm());
     b_in_a.rotation = rotation_a.transpose() * rotation_b;
     b_in_a.position = rotation_a.transpose() * offset_world;

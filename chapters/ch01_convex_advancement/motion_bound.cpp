@@ -53,9 +53,9 @@ MovingPair::MovingPair(MotionBound bound, const Convex& a, const Motion& motion_
 
 double MovingPair::closing_speed_bound(const Vec3& n, double t, double end) const {
   const Vec3 velocity = a_.motion.velocity - b_.motion.velocity,
-             acceleration = a_.motion.acceleration - b_.motion.acceleration;
+             acceleration = relative_acceleration(a_.motion, b_.motion, t);
   const double pull = n.dot(acceleration);
-  const double linear = n.dot(velocity + t * acceleration) + std::max(0.0, pull * (end - t));
+  const double linear = n.dot(relative_velocity(a_.motion, b_.motion, t)) + std::max(0.0, pull * (end - t));
   // ANCHOR: bound
   const bool naive = bound_ == MotionBound::naive;
   const double turn_a = naive ? a_.motion.spin_bound() : a_.motion.turning_bound(n);
@@ -80,15 +80,14 @@ double MovingPair::second_order_time(const PairPose& pose, const Vec3& n, double
   const Vec3 cross_a = n.cross(a_.motion.spin_at(t)), cross_b = n.cross(b_.motion.spin_at(t));
   const Vec3 n_a = pose.rotation_a.transpose() * n, n_b = pose.rotation_b.transpose() * n;
   const Vec3 turn_a = pose.rotation_a.transpose() * cross_a, turn_b = pose.rotation_b.transpose() * cross_b;
-  const Vec3 velocity =
-      (b_.motion.velocity - a_.motion.velocity) + t * (b_.motion.acceleration - a_.motion.acceleration);
+  const Vec3 velocity = relative_velocity(b_.motion, a_.motion, t);
   // |n.(d2r/dt2)| per metre of reach: n.(dw/dt x r) + (n x w).(w x r).
   const double rate_a = a_.motion.turning_bound(n), rate_b = b_.motion.turning_bound(n);
   const double bend_a = rate_a * a_.motion.spin_bound() + a_.motion.spin_change_bound(),
                bend_b = rate_b * b_.motion.spin_bound() + b_.motion.spin_change_bound();
   const double bend = 0.5 *
                       (bend_a * a_.reach + bend_b * b_.reach +
-                       std::max(0.0, n.dot(a_.motion.acceleration - b_.motion.acceleration))) *
+                       std::max(0.0, n.dot(relative_acceleration(a_.motion, b_.motion, t)))) *
                       (1 + kRounding);
   const double noise =
       kRounding * (velocity.norm() + spin_noise(a_.motion, pose.turned_a, rate_a) * a_.shape.reach +

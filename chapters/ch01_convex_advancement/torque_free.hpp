@@ -48,6 +48,9 @@ class TorqueFree {
     return (acute ? sine * along_ + cosine * across_ + margin_ : spin_bound_);
   }
 
+  // |w - (w.L) L/L^2|, in rad/s: the most of the spin that is across L, the cone's radius.
+  double across_bound() const { return constant_ ? 0 : across_ + margin_; }
+
   // |dw/dt|, in rad/s^2, is at most (|L|/I2) sqrt(|w|max^2 - 4E^2/L^2), with equality when w_2 = 0 (the
   // source has the proof; it needs that I3 <= I1 + I2).
   double spin_change_bound() const { return spin_change_bound_; }

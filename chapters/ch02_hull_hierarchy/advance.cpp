@@ -12,8 +12,6 @@ namespace fc::hulls {
 void advance(const Model& a, const ca::Motion& motion_a, const Model& b, const ca::Motion& motion_b,
              const ca::AdvanceOptions& options, SearchMemory& memory, ca::AdvanceResult& result) {
   ca::check_query(motion_a, motion_b, options);
-  if (motion_a.free || motion_b.free)
-    throw std::invalid_argument("advance: this chapter's steps need bodies whose spin is constant");
   result.clear();
   const ca::PairPose start(motion_a, motion_b, 0), end(motion_a, motion_b, options.interval);
   result.tolerance = std::max(options.tolerance, 8 * std::max(ca::rounding_term(a.whole(), b.whole(), start),

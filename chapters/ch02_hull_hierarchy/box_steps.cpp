@@ -32,7 +32,8 @@ struct OtherBox {
   Lanes3 axis[3];
   Lanes half[3];
   Lanes radius;
-  Lanes sweep;  // m/s, |w x arm|
+  Lanes sweep;  // m/s, |w x arm|, the most from now on
+  Lanes bend;   // m/s^2, |dw/dt| |arm|
 
   OtherBox(const BoxQuad& quad, int lane, const OpenedView& view) {
     const auto get = [&](const Lanes3& lanes) { return Vec3(lanes.x[lane], lanes.y[lane], lanes.z[lane]); };
@@ -49,8 +50,10 @@ struct OtherBox {
     half[1] = all_lanes(quad.half.y[lane]);
     half[2] = all_lanes(quad.half.z[lane]);
     radius = all_lanes(quad.radius[lane]);
-    sweep =
-        all_lanes(view.other_spin.cross(c_float).norm() + kCross * view.other_spin.norm() * c_float.norm());
+    const float length = c_float.norm();
+    sweep = all_lanes(view.other_spin.cross(c_float).norm() + kCross * view.other_spin.norm() * length +
+                      view.other_wander * length);
+    bend = all_lanes(view.other_spin_change * length);
   }
 };
 
@@ -66,7 +69,8 @@ struct FourPairs {
   Lanes3 third;  // axis of the boxes
   Lanes3 spin, other_spin, velocity, acceleration;
   Lanes3 apart;                        // the other's centre less the box's
-  Lanes sweep;                         // m/s, |w x c| of the boxes
+  Lanes sweep;                         // m/s, |w x c| of the boxes, the most from now on
+  Lanes bend;                          // m/s^2, |dw/dt| |c| of both
   Lanes rate_noise, other_rate_noise;  // rad/s
   Lanes rounding;                      // m, of a gap
   Lanes noise;                         // m/s
@@ -82,9 +86,11 @@ struct FourPairs {
         velocity(spread(v.velocity)),
         acceleration(spread(v.acceleration)),
         apart(o.center - b.center),
-        sweep(norm(cross(spin, b.center)) + kCross * v.spin.norm() * norm(b.center)),
-        rate_noise(all_lanes(kCross * v.spin.norm())),
-        other_rate_noise(all_lanes(kCross * v.other_spin.norm())) {
+        sweep(norm(cross(spin, b.center)) + kCross * v.spin.norm() * norm(b.center) +
+              v.wander * norm(b.center)),
+        bend(v.spin_change * norm(b.center) + o.bend),
+        rate_noise(all_lanes(kCross * v.spin.norm() + v.wander)),
+        other_rate_noise(all_lanes(kCross * v.other_spin.norm() + v.other_wander)) {
     const auto size = [](const Lanes3& a) { return abs(a.x) + abs(a.y) + abs(a.z); };
     rounding = kGapRounding * (size(apart) + 2 * (b.radius + o.radius)) +
                kPlaceRounding * (size(o.center) + size(b.center) + size(o.arm));
@@ -127,7 +133,7 @@ struct FourPairs {
     const Lanes pull = max(dot(n, acceleration), all_lanes(0));
     const Lanes b = straight + dot(turn, boxes.center) - dot(other_turn, other.arm) + rate * boxes.radius +
                     other_rate * other.radius;
-    const Lanes k = 0.5f * (rate * sweep + other_rate * other.sweep + pull);
+    const Lanes k = 0.5f * (rate * sweep + other_rate * other.sweep + pull + bend);
     const Lanes root = sqrt(b * b + 4 * k * room);
     const Lanes nearby = b < 0 ? (root - b) / (2 * k) : 2 * room / (b + root);
     const Lanes whole =
@@ -153,12 +159,17 @@ PairViews views_at_rest(const ca::PairPose& pose) {
 PairViews views_of(const ca::PairPose& pose, const ca::Motion& motion_a, double reach_a,
                    const ca::Motion& motion_b, double reach_b, double t) {
   PairViews views = views_at_rest(pose);
-  const Vec3 acceleration = motion_a.acceleration - motion_b.acceleration;
-  const Vec3 velocity = (motion_a.velocity - motion_b.velocity) + t * acceleration;
+  const Vec3 acceleration = ca::relative_acceleration(motion_a, motion_b, t);
+  const Vec3 velocity = ca::relative_velocity(motion_a, motion_b, t);
   const auto set = [&](OpenedView& view, const ca::Motion& own, double reach, const ca::Motion& other,
                        double other_reach, double sign) {
-    view.spin = (view.rotation * own.spin).cast<float>();
-    view.other_spin = (view.rotation * other.spin).cast<float>();
+    view.spin = (view.rotation * own.spin_at(t)).cast<float>();
+    view.other_spin = (view.rotation * other.spin_at(t)).cast<float>();
+    const auto above = [](double x) { return x == 0 ? 0.0f : float_above(x); };
+    view.wander = above(own.wander());
+    view.other_wander = above(other.wander());
+    view.spin_change = above(own.spin_change_bound());
+    view.other_spin_change = above(other.spin_change_bound());
     view.velocity = (sign * (view.rotation * velocity)).cast<float>();
     view.acceleration = (sign * (view.rotation * acceleration)).cast<float>();
     view.reach = float_above(reach);

@@ -19,6 +19,8 @@ struct OpenedView {
   Vec3f velocity;            // m/s, of the opened body less that of the other
   Vec3f acceleration;        // m/s^2, the same
   float reach, other_reach;  // m
+  // Of spins that change: how much |n x w| may grow, rad/s, and the largest |dw/dt|, rad/s^2 (ca::Motion).
+  float wander = 0, other_wander = 0, spin_change = 0, other_spin_change = 0;
 };
 
 // From both sides, at one pose; at time t of two motions, or of bodies at rest.

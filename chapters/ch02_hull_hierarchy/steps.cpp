@@ -16,18 +16,23 @@ constexpr int kMostLooks = 16;
 struct Side {
   Vec3 direction;  // n in the body's axes
   Vec3 turn;       // n x w in the body's axes: a point x moves with n.v + turn.x along n
-  double rate;     // rad/s, |n x w|
+  double rate;     // rad/s, |n x w|, the most from now on
   double bend;     // m/s^2, the most that a point's speed along n changes in a second
+  double noise;    // m/s, what a point's speed along n may be off by, in units of kRounding
 
-  Side(const ca::Motion& m, const Mat3& rotation, const Vec3& n, const ca::Convex& shape)
-      : direction(rotation.transpose() * n), turn(rotation.transpose() * n.cross(m.spin)), rate(turn.norm()) {
-    const Vec3 spin = rotation.transpose() * m.spin;
+  Side(const ca::Motion& m, const Mat3& rotation, double turned, const Vec3& n, double t,
+       const ca::Convex& shape) {
+    const Vec3 spin_world = m.spin_at(t), spin = rotation.transpose() * spin_world;
+    direction = rotation.transpose() * n;
+    turn = rotation.transpose() * n.cross(spin_world);
+    rate = turn.norm() + m.wander();
     double sweep2 = 0;
     if (shape.table != nullptr)  // many points: the farthest one stands for all
       sweep2 = spin.squaredNorm() * shape.reach * shape.reach;
     else
       for (const Vec3& x : shape.points) sweep2 = std::max(sweep2, spin.cross(x).squaredNorm());
-    bend = rate * std::sqrt(sweep2);
+    bend = rate * (std::sqrt(sweep2) + m.wander() * shape.reach) + m.spin_change_bound() * shape.reach;
+    noise = (m.free ? turned * m.spin_bound() : rate) * shape.reach;
   }
 };
 
@@ -35,9 +40,8 @@ struct Side {
 
 double whole_step(const ca::Motion& a, const ca::Convex& shape_a, const ca::Motion& b,
                   const ca::Convex& shape_b, const Vec3& n, double t, double end, double room) {
-  const Vec3 acceleration = a.acceleration - b.acceleration,
-             velocity = (a.velocity - b.velocity) + t * acceleration;
-  const double turning = n.cross(a.spin).norm() * shape_a.reach + n.cross(b.spin).norm() * shape_b.reach;
+  const Vec3 acceleration = ca::relative_acceleration(a, b, t), velocity = ca::relative_velocity(a, b, t);
+  const double turning = a.turning_bound(n) * shape_a.reach + b.turning_bound(n) * shape_b.reach;
   const double speed = n.dot(velocity) + std::max(0.0, n.dot(acceleration) * (end - t)) + turning +
                        kRounding * (velocity.norm() + turning);
   return speed > 0 ? room / speed : kInfinity;
@@ -46,18 +50,24 @@ double whole_step(const ca::Motion& a, const ca::Convex& shape_a, const ca::Moti
 SafeStep ball_step(const ca::Motion& a, const ca::Convex& node_a, double radius_a, const ca::Motion& b,
                    const ca::Convex& node_b, double radius_b, const ca::PairPose& pose, const Vec3& n,
                    double t, double end, double room) {
-  const Vec3 turn_a = n.cross(a.spin), turn_b = n.cross(b.spin);
-  const double rate_a = turn_a.norm(), rate_b = turn_b.norm();
+  const Vec3 spin_a = a.spin_at(t), spin_b = b.spin_at(t);
+  const Vec3 turn_a = n.cross(spin_a), turn_b = n.cross(spin_b);
+  const double rate_a = turn_a.norm() + a.wander(), rate_b = turn_b.norm() + b.wander();
   const Vec3 middle_a = pose.rotation_a * node_a.center, middle_b = pose.rotation_b * node_b.center;
-  const Vec3 velocity = (a.velocity - b.velocity) + t * (a.acceleration - b.acceleration);
-  const double fall = n.dot(a.acceleration - b.acceleration);
+  const Vec3 velocity = ca::relative_velocity(a, b, t);
+  const double fall = n.dot(ca::relative_acceleration(a, b, t));
   const double linear = n.dot(velocity);
 
   // About the nodes' own middles.
-  const double noise = kRounding * (velocity.norm() + rate_a * node_a.reach + rate_b * node_b.reach);
+  const double noise = kRounding * (velocity.norm() + rate_a * node_a.reach + rate_b * node_b.reach +
+                                    (a.free ? pose.turned_a * a.spin_bound() * node_a.reach : 0) +
+                                    (b.free ? pose.turned_b * b.spin_bound() * node_b.reach : 0));
   const double c =
       linear + turn_a.dot(middle_a) - turn_b.dot(middle_b) + rate_a * radius_a + rate_b * radius_b + noise;
-  const double k = 0.5 * (rate_a * a.spin.cross(middle_a).norm() + rate_b * b.spin.cross(middle_b).norm()) +
+  const auto bend = [](const ca::Motion& m, double rate, const Vec3& spin, const Vec3& middle) {
+    return rate * spin.cross(middle).norm() + (rate * m.wander() + m.spin_change_bound()) * middle.norm();
+  };
+  const double k = 0.5 * (bend(a, rate_a, spin_a, middle_a) + bend(b, rate_b, spin_b, middle_b)) +
                    0.5 * std::max(0.0, fall);
   SafeStep step;
   step.time = ca::crossing_time(c, k, room);
@@ -69,11 +79,12 @@ SafeStep ball_step(const ca::Motion& a, const ca::Convex& node_a, double radius_
 SafeStep points_step(const ca::Motion& a, const ca::Convex& shape_a, const ca::Motion& b,
                      const ca::Convex& shape_b, const ca::PairPose& pose, const Vec3& n, double t, double end,
                      double room) {
-  const Side side_a(a, pose.rotation_a, n, shape_a), side_b(b, pose.rotation_b, -n, shape_b);
-  const Vec3 velocity = (a.velocity - b.velocity) + t * (a.acceleration - b.acceleration);
-  const double k = 0.5 * (side_a.bend + side_b.bend + std::max(0.0, n.dot(a.acceleration - b.acceleration)));
-  const double noise =
-      kRounding * (velocity.norm() + side_a.rate * shape_a.reach + side_b.rate * shape_b.reach);
+  const Side side_a(a, pose.rotation_a, pose.turned_a, n, t, shape_a),
+      side_b(b, pose.rotation_b, pose.turned_b, -n, t, shape_b);
+  const Vec3 velocity = ca::relative_velocity(a, b, t);
+  const double pull = std::max(0.0, n.dot(ca::relative_acceleration(a, b, t)));
+  const double k = 0.5 * (side_a.bend + side_b.bend + pull);
+  const double noise = kRounding * (velocity.norm() + side_a.noise + side_b.noise);
   const double straight = n.dot(velocity) + noise, remaining = end - t;
 
   // Ahead now: the supports, which the room is measured from.

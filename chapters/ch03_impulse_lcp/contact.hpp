@@ -16,13 +16,18 @@ struct Contact {
   Vec3 normal = Vec3::Zero();  // unit, world, from A to B
   double gap = 0;              // m, distance of the two surfaces; reported, never used by the impact law
   double restitution = 0;      // Newton's epsilon, in [0, 1]
+  // False: the normal passes through that body's centre of mass, as a ball's does. The impulse has no lever
+  // arm on it, and its spin no part in the contact's velocity: nothing angular is computed.
+  bool turns_a = true, turns_b = true;
 };
 
 // The relative normal velocity v = n.(v_B - v_A) at the contact point, m/s: negative while the bodies
 // approach.
 inline double contact_velocity(std::span<const RigidBody> bodies, const Contact& contact) {
-  const Vec3 velocity_a = bodies[static_cast<std::size_t>(contact.body_a)].velocity_at(contact.point);
-  const Vec3 velocity_b = bodies[static_cast<std::size_t>(contact.body_b)].velocity_at(contact.point);
+  const RigidBody& a = bodies[static_cast<std::size_t>(contact.body_a)];
+  const RigidBody& b = bodies[static_cast<std::size_t>(contact.body_b)];
+  const Vec3 velocity_a = contact.turns_a ? a.velocity_at(contact.point) : a.velocity;
+  const Vec3 velocity_b = contact.turns_b ? b.velocity_at(contact.point) : b.velocity;
   return contact.normal.dot(velocity_b - velocity_a);
 }
 

@@ -82,9 +82,12 @@ ImpactProblem assemble(std::span<const RigidBody> bodies, std::span<const Contac
       const auto index = static_cast<std::size_t>(on_b ? contact.body_b : contact.body_a);
       const RigidBody& body = bodies[index];
       if (body.is_static()) continue;
-      const Vec3 arm = (contact.point - body.position).cross(contact.normal);
-      sides[index].push_back(
-          {static_cast<int>(i), on_b ? 1.0 : -1.0, contact.normal, arm, body.inverse_inertia_world() * arm});
+      Side side{static_cast<int>(i), on_b ? 1.0 : -1.0, contact.normal, Vec3::Zero(), Vec3::Zero()};
+      if (on_b ? contact.turns_b : contact.turns_a) {
+        side.arm = (contact.point - body.position).cross(contact.normal);
+        side.spin_change = body.inverse_inertia_world() * side.arm;
+      }
+      sides[index].push_back(side);
     }
   }
 
@@ -96,13 +99,15 @@ DelassusOperator::DelassusOperator(std::span<const RigidBody> bodies, std::span<
     : changes_(bodies.size()) {
   check_contacts(bodies, contacts);
   for (const Contact& contact : contacts) {
-    const auto part = [&](int index) -> Part {
+    const auto part = [&](int index, bool turns) -> Part {
       const RigidBody& body = bodies[static_cast<std::size_t>(index)];
       if (body.is_static()) return {-1, Vec3::Zero(), Vec3::Zero(), 0};
+      if (!turns) return {index, Vec3::Zero(), Vec3::Zero(), body.inverse_mass};
       const Vec3 arm = (contact.point - body.position).cross(contact.normal);
       return {index, arm, body.inverse_inertia_world() * arm, body.inverse_mass};
     };
-    rows_.push_back({contact.normal, part(contact.body_a), part(contact.body_b)});
+    rows_.push_back(
+        {contact.normal, part(contact.body_a, contact.turns_a), part(contact.body_b, contact.turns_b)});
   }
 }
 

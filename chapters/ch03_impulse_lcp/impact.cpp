@@ -71,6 +71,18 @@ double speed_scale(std::span<const RigidBody> bodies, std::span<const Contact> c
   return scale;
 }
 
+// What an impulse at a body that no impulse moves, but that moves by itself, does to the energy of the other:
+// impulse times that body's velocity along it, J.
+double kinematic_work(std::span<const RigidBody> bodies, const Contact& contact, double impulse) {
+  double work = 0;
+  for (const bool on_b : {false, true}) {
+    const RigidBody& body = bodies[static_cast<std::size_t>(on_b ? contact.body_b : contact.body_a)];
+    if (body.is_static())
+      work += (on_b ? -impulse : impulse) * contact.normal.dot(body.velocity_at(contact.point));
+  }
+  return work;
+}
+
 double fastest_approach(std::span<const RigidBody> bodies, std::span<const Contact> contacts) {
   double fastest = 0;
   for (const Contact& contact : contacts) fastest = std::max(fastest, -contact_velocity(bodies, contact));
@@ -83,6 +95,7 @@ void apply_impulse(std::span<RigidBody> bodies, const Contact& contact, double i
     if (body.is_static()) continue;
     const Vec3 push = (on_b ? impulse : -impulse) * contact.normal;
     body.velocity += body.inverse_mass * push;
+    if (!(on_b ? contact.turns_b : contact.turns_a)) continue;
     body.spin += body.inverse_inertia_world() * (contact.point - body.position).cross(push);
   }
 }
@@ -128,8 +141,10 @@ Status solve_once(std::span<RigidBody> bodies, std::span<const Contact> contacts
   }
   for (std::size_t k = first; k < result.impulses.size(); ++k) {
     const Impulse& p = result.impulses[k];
-    const double restitution = contacts[static_cast<std::size_t>(p.contact)].restitution;
-    result.energy_identity += 0.5 * (1 - restitution) * p.impulse * p.v_before;
+    const Contact& contact = contacts[static_cast<std::size_t>(p.contact)];
+    const double work = kinematic_work(bodies, contact, p.impulse);
+    result.kinematic_work += work;
+    result.energy_identity += 0.5 * (1 - contact.restitution) * p.impulse * p.v_before + work;
   }
   result.worst_residual = std::max(result.worst_residual, achieved);
   ++result.solves;
@@ -185,7 +200,7 @@ ImpactResult resolve_impact(std::span<RigidBody> bodies, std::span<const Contact
   if (result.status != Status::solved) {
     restore(bodies, saved);
     result.impulses.clear();
-    result.energy_identity = 0;
+    result.energy_identity = result.kinematic_work = 0;
     return result;
   }
   result.energy_change = kinetic_energy(bodies, saved) - energy_before;

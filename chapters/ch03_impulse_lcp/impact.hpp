@@ -37,7 +37,8 @@ struct ImpactResult {
   int pivots = 0;                  // of all solves together
   double worst_residual = 0;       // of the solves
   double energy_change = 0;        // J, measured on the bodies
-  double energy_identity = 0;      // J, 1/2 sum (1 - epsilon_i) j_i v_i-, what the law says it must be
+  double energy_identity = 0;      // J, 1/2 sum (1 - epsilon_i) j_i v_i- and kinematic_work: what it must be
+  double kinematic_work = 0;       // J, done by bodies of infinite mass that move
   double fastest_approach = 0;     // m/s, >= 0: what is left after the last solve, below the stated rounding
   bool restitution_lowered =
       false;  // mixed restitutions had no solution: the smallest of the set was used for all

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "ch02_hull_hierarchy/features.hpp"
+#include "ch04_multibody_stepping/sensors.hpp"
 
 namespace fc::world {
 namespace {
@@ -29,7 +30,7 @@ bool out_of_reach(const World& world, const Pair& pair, const ca::Motion& a, con
   const double reach =
       world.shapes[world.bodies[pair.a].shape].reach + world.shapes[world.bodies[pair.b].shape].reach;
   const double travel =
-      left * ((b.velocity - a.velocity).norm() + 0.5 * left * (b.acceleration - a.acceleration).norm());
+      left * (ca::relative_velocity(a, b, 0).norm() + 0.5 * left * ca::relative_acceleration(a, b, 0).norm());
   return (b.position - a.position).norm() > reach + travel + world.tolerance;
 }
 
@@ -37,6 +38,7 @@ bool out_of_reach(const World& world, const Pair& pair, const ca::Motion& a, con
 // gravity.
 struct Balls {
   Vec3 apart, velocity;  // of B's centre, seen from A's
+  double drag;           // 1/s, of the two that move
   Vec3 centre_a;
   double radius_a, radii;
   bool straight;
@@ -48,7 +50,12 @@ struct Balls {
     centre_a = a.position;
     radius_a = world.ball_radius[world.bodies[pair.a].shape];
     radii = radius_a + world.ball_radius[world.bodies[pair.b].shape];
-    straight = a.acceleration == b.acceleration;
+    // Drag does not bend a straight line, if it is the same for both (or the other one does not move): it
+    // lets time pass more and more slowly.
+    const bool same_drag =
+        a.drag == b.drag || (a.drag == 0 && a.velocity.isZero(0)) || (b.drag == 0 && b.velocity.isZero(0));
+    straight = a.acceleration == b.acceleration && same_drag;
+    drag = std::max(a.drag, b.drag);
     // What the gap may be off by: round-off of coordinates, and of squares of distances.
     rounding = kBallRounding * std::numeric_limits<double>::epsilon() *
                (a.position.cwiseAbs().maxCoeff() + b.position.cwiseAbs().maxCoeff() + apart.norm() + radii);
@@ -64,7 +71,10 @@ struct Balls {
     if (closing <= 0) return kNever;
     const double limit = radii + target, c = apart.squaredNorm() - limit * limit;
     const double discriminant = closing * closing - velocity.squaredNorm() * c;
-    return discriminant > 0 ? c / (closing + std::sqrt(discriminant)) : kNever;
+    if (!(discriminant > 0)) return kNever;
+    const double time = c / (closing + std::sqrt(discriminant));  // without drag
+    if (drag == 0) return time;
+    return drag * time < 1 ? -std::log1p(-drag * time) / drag : kNever;
   }
 };
 
@@ -81,7 +91,7 @@ std::vector<lcp::Contact> contacts_of(const World& world, const Pair& pair, doub
     if (gap > world.tolerance) return {};
     const Vec3 normal = balls.apart.normalized();
     return {{pair.a, pair.b, balls.centre_a + (balls.radius_a + 0.5 * gap) * normal, normal, gap,
-             world.restitution_of(pair.a, pair.b)}};
+             world.restitution_of(pair.a, pair.b), false, false}};
   }
   const ca::Motion motion_a = world.motion(pair.a, now), motion_b = world.motion(pair.b, now);
   if (out_of_reach(world, pair, motion_a, motion_b, 0)) return {};
@@ -90,7 +100,8 @@ std::vector<lcp::Contact> contacts_of(const World& world, const Pair& pair, doub
   for (const ca::FeaturePair& feature : hulls::contact_features(
            world.model_of(pair.a), world.model_of(pair.b), pose, motion_a.position, world.tolerance))
     contacts.push_back({pair.a, pair.b, 0.5 * (feature.point_a + feature.point_b), feature.normal,
-                        feature.gap, world.restitution_of(pair.a, pair.b)});
+                        feature.gap, world.restitution_of(pair.a, pair.b), world.turns(pair.a),
+                        world.turns(pair.b)});
   return contacts;
 }
 
@@ -116,7 +127,7 @@ bool balls_meet(const World& world, Pair& pair, double now, double dt, StepRepor
 void find_next_contact(const World& world, Pair& pair, double now, double dt, StepReport& report) {
   pair.contact = pair.stalled = false;
   pair.time = dt;
-  if (world.stays(pair.a) && world.stays(pair.b)) return;
+  if (!world.may_meet(pair.a, pair.b)) return;
   if (are_balls(world, pair) && balls_meet(world, pair, now, dt, report)) return;
   const ca::Motion motion_a = world.motion(pair.a, now), motion_b = world.motion(pair.b, now);
   if (out_of_reach(world, pair, motion_a, motion_b, dt - now)) return;
@@ -166,6 +177,7 @@ Island touching_island(const World& world, const Pair& pair, double now, StepRep
       if (std::find(seen.begin(), seen.end(), number) != seen.end()) continue;
       seen.push_back(number);
       const Pair& other = world.schedule.pair(number);
+      if (is_sensor_pair(world, other.a, other.b)) continue;
       const std::vector<lcp::Contact> contacts = contacts_of(world, other, now);
       if (contacts.empty()) continue;
       island.contacts.insert(island.contacts.end(), contacts.begin(), contacts.end());

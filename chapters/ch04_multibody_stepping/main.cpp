@@ -10,33 +10,6 @@ namespace {
 
 using namespace fc;
 
-std::string declared(const Scene& scene, const std::string& key) {
-  const auto mark = scene.mark(key);
-  return mark ? "declared at " + mark->text() : "";
-}
-
-std::vector<Effect> explain(const Scene& scene) {
-  std::vector<Effect> effects;
-  effects.push_back({"collision", "derived: the scene has bodies",
-                     "continuous collision detection; one LCP per instant", 1});
-  effects.push_back({"rotation", "derived: bodies are solid",
-                     "constant spin between impacts: without a gyroscopic effect not the angular momentum",
-                     0});
-  if (scene.gravity)
-    effects.push_back(
-        {"gravity", declared(scene, "gravity"), "free fall in closed form inside every motion", 0});
-  bool restitution = scene.restitution.has_value();
-  std::string where = declared(scene, "restitution");
-  for (const ShapeSpec& shape : scene.shapes)
-    if (shape.restitution && !restitution) {
-      restitution = true;
-      where = "declared by shape '" + shape.name + "' at " + shape.where.text();
-    }
-  effects.push_back({"restitution", restitution ? where : "absent: 0, bodies do not bounce",
-                     "the right-hand side of the LCP", 0});
-  return effects;
-}
-
 int run(const Scene& scene, const RunContext& context, Summary& summary) {
   const auto start = std::chrono::steady_clock::now();
   world::World world = world::build_world(scene);
@@ -55,9 +28,11 @@ int run(const Scene& scene, const RunContext& context, Summary& summary) {
   Progress progress("frames", step.frames, context.quiet);
   try {
     for (int frame = 0; frame < step.frames; ++frame) {
-      const world::StepReport report = world::step(
-          world, step.dt, [&](const world::ImpactRecord& impact) { recorder.impact(impact); },
-          [&](const world::World& now, double time) { recorder.instant(now, time); });
+      const world::StepReport report =
+          world::step(world, step.dt,
+                      {[&](const world::ImpactRecord& impact) { recorder.impact(impact); },
+                       [&](const world::World& now, double time) { recorder.instant(now, time); },
+                       [&](const world::Sighting& sighting) { recorder.sighting(sighting); }});
       recorder.frame(world, frame + 1, (frame + 1) * step.dt, report);
       progress.update(frame + 1);
     }
@@ -84,7 +59,7 @@ int main(int argc, char** argv) {
       "come to rest are held (lost_time); resting contact comes with chapter 5, friction with chapter 6.";
   chapter.example =
       "build/bin/ch04_multibody_stepping chapters/ch04_multibody_stepping/scenes/two_bunnies.yaml --poses";
-  chapter.explain = explain;
+  chapter.explain = world::explain;
   chapter.run = run;
   return run_program(argc, argv, chapter);
 }

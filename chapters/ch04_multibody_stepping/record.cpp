@@ -27,6 +27,11 @@ std::vector<Column> poses_columns() {
           {"vy", "m/s"}, {"vz", "m/s"}, {"wx", "rad/s"}, {"wy", "rad/s"}, {"wz", "rad/s"}};
 }
 
+std::vector<Column> sensors_columns() {
+  return {{"t", "s"}, {"sensor", ""}, {"body", ""}, {"x", "m"},   {"y", "m"},      {"z", "m"},
+          {"nx", ""}, {"ny", ""},     {"nz", ""},   {"gap", "m"}, {"speed", "m/s"}};
+}
+
 }  // namespace
 
 Totals totals_of(const World& world) {
@@ -34,7 +39,8 @@ Totals totals_of(const World& world) {
   for (const Body& body : world.bodies) {
     if (body.state.is_static()) continue;
     totals.kinetic += body.state.kinetic_energy();
-    totals.potential -= body.state.mass * world.gravity.dot(body.state.position);
+    if (world.effects.gravity)
+      totals.potential -= body.state.mass * world.effects.gravity->dot(body.state.position);
     totals.momentum += body.state.momentum();
     totals.angular_momentum += body.state.angular_momentum();
   }
@@ -48,6 +54,7 @@ Recorder::Recorder(const Scene& scene, const World& world, const RunContext& con
       folder_(context.out_dir),
       dt_(scene.step->dt) {
   if (context.poses) poses_.emplace(context.out_dir / "poses.csv", poses_columns());
+  if (world.effects.sensors) sensors_.emplace(context.out_dir / "sensors.csv", sensors_columns());
   for (const Shape& shape : world.shapes) motion_.add_shape(shape);
   for (const Body& body : world.bodies) motion_.add_body(body.shape, body.state);
 }
@@ -71,6 +78,7 @@ void Recorder::frame(const World& world, int number, double t, const StepReport&
   double impulse = 0;
   for (const ImpactRecord& record : impacts_) impulse += record.impulse.impulse;
   write_impacts((number - 1) * dt_);
+  write_sightings((number - 1) * dt_);
   steps_row(world, number, t, report);
   poses_rows(world, t);
   motion_frame(world, t, impulse, report.impacts);
@@ -93,8 +101,17 @@ void Recorder::write_impacts(double frame_start) {
   impacts_seen_ = 0;
 }
 
+void Recorder::write_sightings(double frame_start) {
+  for (const Sighting& s : sightings_)
+    sensors_->row({frame_start + s.time, std::int64_t{s.sensor}, std::int64_t{s.body}, s.point.x(),
+                   s.point.y(), s.point.z(), s.normal.x(), s.normal.y(), s.normal.z(), s.gap, s.speed});
+  sightings_.clear();
+}
+
 std::string Recorder::close() {
   write_impacts(static_cast<double>(reports_.size()) * dt_);  // of a step that failed
+  write_sightings(static_cast<double>(reports_.size()) * dt_);
+  if (sensors_) sensors_->close();
   steps_.close();
   contacts_.close();
   if (poses_) poses_->close();
@@ -107,7 +124,7 @@ void Recorder::motion_frame(const World& world, double t, double impulse, int co
   motion_.frame(t, states);
   const Totals totals = totals_of(world);
   motion_.value("energy", "kinetic", "J", totals.kinetic);
-  if (!world.gravity.isZero(0)) {
+  if (world.effects.gravity && !world.effects.gravity->isZero(0)) {
     motion_.value("energy", "potential", "J", totals.potential);
     motion_.value("energy", "total", "J", totals.kinetic + totals.potential);
   }
@@ -157,7 +174,8 @@ void summarize(const Scene& scene, const World& world, const std::vector<StepRep
                Summary& summary) {
   StepReport worst;
   worst.min_gap = std::numeric_limits<double>::infinity();
-  double lost_time = 0;
+  double lost_time = 0, work = 0, slept = 0;
+  std::int64_t pairs = 0, sightings = 0, falls_asleep = 0, wakes = 0;
   std::int64_t contacts = 0, impacts = 0, with_contact = 0, slow = 0, ccd_ns = 0, lcp_ns = 0, queries = 0,
                solves = 0, node_pairs = 0;
   int fewest = std::numeric_limits<int>::max(), most = 0;
@@ -170,6 +188,12 @@ void summarize(const Scene& scene, const World& world, const std::vector<StepRep
     worst.energy_error = std::max(worst.energy_error, r.energy_error);
     worst.energy_gain = std::max(worst.energy_gain, r.energy_gain);
     lost_time += r.lost_time;
+    work += r.kinematic_work;
+    slept += r.slept_energy;
+    pairs += r.pairs;
+    sightings += r.sightings;
+    falls_asleep += r.falls_asleep;
+    wakes += r.wakes;
     contacts += r.contacts;
     impacts += r.impacts;
     ccd_ns += r.ccd_ns;
@@ -201,6 +225,13 @@ void summarize(const Scene& scene, const World& world, const std::vector<StepRep
   summary.add("largest kinetic energy gain at an impact", worst.energy_gain, "J");
   summary.add("worst deviation from the energy identity", worst.energy_error, "J");
   summary.add("lost time", lost_time, "s");
+  if (world.effects.kinematic) summary.add("work of kinematic bodies", work, "J");
+  if (world.effects.sleep) {
+    summary.add("bodies that fell asleep", falls_asleep);
+    summary.add("bodies that were woken", wakes);
+    summary.add("energy given up to sleep", slept, "J");
+  }
+  if (world.effects.sensors) summary.add("sightings of sensors", sightings);
   summary.add("pairs of nodes", node_pairs);
   if (!contact_ns.empty()) {
     summary.add_time("median frame with contact", contact_ns[contact_ns.size() / 2]);
@@ -225,7 +256,13 @@ void summarize(const Scene& scene, const World& world, const std::vector<StepRep
   }
   summary.counter("continuous collision queries", queries, ccd_ns);
   summary.counter("LCP solves", solves, lcp_ns);
+  summary.counter("swept detection (pairs of bodies whose swept boxes overlap)", pairs, 0);
   if (scene.gravity) summary.counter("gravity (inside the motions: free fall in closed form)", queries, 0);
+  if (scene.gyroscopic) summary.counter("gyroscopic (inside the motions: torque-free rotation)", queries, 0);
+  if (scene.drag) summary.counter("drag (inside the motions: exponential decay)", queries, 0);
+  if (world.effects.kinematic) summary.counter("kinematic (solves, their work)", solves, 0);
+  if (world.effects.sensors) summary.counter("sensor (sightings)", sightings, 0);
+  if (world.effects.sleep) summary.counter("sleep (falls asleep and wakes)", falls_asleep + wakes, 0);
 }
 
 }  // namespace fc::world

@@ -28,6 +28,7 @@ class Recorder {
   void start(const World& world);  // row 0
   // To be called inside a step, with times within the frame: they only take notes.
   void impact(const ImpactRecord& record) { impacts_.push_back(record); }
+  void sighting(const Sighting& sighting) { sightings_.push_back(sighting); }
   void instant(const World& world, double time);
   // After a step that ended at t (s).
   void frame(const World& world, int number, double t, const StepReport& report);
@@ -39,6 +40,7 @@ class Recorder {
 
  private:
   void write_impacts(double frame_start);
+  void write_sightings(double frame_start);
   void steps_row(const World& world, int number, double t, const StepReport& report);
   void poses_rows(const World& world, double t);
   void motion_frame(const World& world, double t, double impulse, int contacts);
@@ -50,11 +52,12 @@ class Recorder {
   };
 
   TableWriter steps_, contacts_;
-  std::optional<TableWriter> poses_;
+  std::optional<TableWriter> poses_, sensors_;
   MotionRecording motion_;
   std::filesystem::path folder_;
   double dt_;
   std::vector<ImpactRecord> impacts_;  // of the frame that is being stepped
+  std::vector<Sighting> sightings_;    // of the same
   std::size_t impacts_seen_ = 0;       // how many of them belong to instants that are over
   std::vector<Kink> kinks_;
   std::vector<StepReport> reports_;

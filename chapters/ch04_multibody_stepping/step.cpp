@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "ch04_multibody_stepping/contact_search.hpp"
+#include "ch04_multibody_stepping/sensors.hpp"
+#include "ch04_multibody_stepping/sleep.hpp"
 #include "ch04_multibody_stepping/world.hpp"
 
 namespace fc::world {
@@ -64,8 +66,8 @@ struct Local {
 // One step from contact to contact: the world, the frame and the report at hand.
 class Stepper {
  public:
-  Stepper(World& world, double dt, StepReport& report, const OnImpact& on_impact)
-      : world_(world), schedule_(world.schedule), dt_(dt), report_(report), on_impact_(on_impact) {}
+  Stepper(World& world, double dt, StepReport& report, const Listeners& listeners)
+      : world_(world), schedule_(world.schedule), dt_(dt), report_(report), listeners_(listeners) {}
 
   // Opens the pairs whose swept boxes overlap in the frame, and asks each for its next contact.
   void begin_frame() {
@@ -76,7 +78,7 @@ class Stepper {
     schedule_.begin(boxes);
     std::vector<std::pair<int, int>> pairs;
     schedule_.overlapping_pairs([&](int a, int b) {
-      if (!(world_.stays(a) && world_.stays(b))) pairs.emplace_back(std::min(a, b), std::max(a, b));
+      if (world_.may_meet(a, b)) pairs.emplace_back(std::min(a, b), std::max(a, b));
     });
     std::sort(pairs.begin(), pairs.end());  // the tree's order is not the bodies'
     for (const auto& [a, b] : pairs) open(a, b, 0);
@@ -101,16 +103,29 @@ class Stepper {
   void hold(const Island& island, double now) {
     std::vector<int> stopped;
     for (const int body : island.bodies) {
-      if (world_.bodies[body].held) continue;
-      world_.bodies[body] = {world_.state_at(body, now), now, world_.bodies[body].shape, true};
+      if (world_.bodies[body].held || world_.bodies[body].asleep) continue;
+      world_.carry(body, now, now);
+      world_.bodies[body].held = true;
       stopped.push_back(body);
     }
     new_courses(stopped, now);
   }
 
+  // Looks at a pair with a sensor, and tells what is new: contacts are told, not resolved. Whether they
+  // touch.
+  bool sight(int a, int b, double now) {
+    bool touching = false;
+    const std::optional<Sighting> sighting = look(world_, a, b, now, touching);
+    if (!sighting) return touching;
+    ++report_.sightings;
+    if (listeners_.sighting) listeners_.sighting(*sighting);
+    return touching;
+  }
+
  private:
   void open(int a, int b, double now) {
     ++report_.pairs;
+    if (is_sensor_pair(world_, a, b) && sight(a, b, now)) return;  // until one of them takes a new course
     ask(schedule_.open(a, b), now);
   }
 
@@ -120,7 +135,7 @@ class Stepper {
   void meet(int body, const Bounds& box, double now, Skip&& skip) {
     others_.clear();
     schedule_.overlapping(box, [&](int other) {
-      if (!skip(other) && !(world_.stays(body) && world_.stays(other))) others_.push_back(other);
+      if (!skip(other) && world_.may_meet(body, other)) others_.push_back(other);
     });
     std::sort(others_.begin(), others_.end());
     for (const int other : others_) open(body, other, now);
@@ -145,7 +160,7 @@ class Stepper {
   Schedule& schedule_;
   double dt_;
   StepReport& report_;
-  const OnImpact& on_impact_;
+  const Listeners& listeners_;
   std::vector<int> others_;
 };
 
@@ -162,7 +177,8 @@ void Stepper::solve(const Island& island, double now) {
   report_.lcp_rows += impact.rows;
   report_.solves += impact.solves;
   report_.lcp_residual = std::max(report_.lcp_residual, impact.worst_residual);
-  report_.energy_gain = std::max(report_.energy_gain, after.kinetic - before.kinetic);
+  report_.kinematic_work += impact.kinematic_work;
+  report_.energy_gain = std::max(report_.energy_gain, after.kinetic - before.kinetic - impact.kinematic_work);
   report_.energy_error =
       std::max(report_.energy_error, std::abs(after.kinetic - before.kinetic - impact.energy_identity));
   const bool free = local.numbers.size() == island.bodies.size();  // no static body takes part
@@ -175,23 +191,29 @@ void Stepper::solve(const Island& island, double now) {
   std::vector<int> changed;
   if (!impact.impulses.empty())
     for (std::size_t i = 0; i < island.bodies.size(); ++i) {
-      Body& body = world_.bodies[island.bodies[i]];
+      const Body& body = world_.bodies[island.bodies[i]];
       const RigidBody& state = local.states[i];
       const bool same = body.held && state.velocity == body.state.velocity && state.spin == body.state.spin;
       if (same) continue;  // a held body that was not hit stays held
       if (body.held) report_.lost_time = std::max(report_.lost_time, now - body.time);
-      body = {state, now, body.shape, false};
       changed.push_back(island.bodies[i]);
     }
-  if (on_impact_)
+  if (world_.effects.sleep) wake(world_, now, changed, report_);
+  for (const int body : changed) {
+    const auto place = std::find(island.bodies.begin(), island.bodies.end(), body) - island.bodies.begin();
+    const bool hit = place < static_cast<std::ptrdiff_t>(island.bodies.size());
+    world_.set_course(body, hit ? local.states[static_cast<std::size_t>(place)] : world_.state_at(body, now),
+                      now);
+  }
+  if (listeners_.impact)
     for (const lcp::Impulse& impulse : impact.impulses)
-      on_impact_({now, island.contacts[impulse.contact], impulse});
+      listeners_.impact({now, island.contacts[impulse.contact], impulse});
   new_courses(changed, now);
 }
 
 }  // namespace
 
-StepReport step(World& world, double dt, const OnImpact& on_impact, const OnInstant& on_instant) {
+StepReport step(World& world, double dt, const Listeners& listeners) {
   if (!(dt > 0 && std::isfinite(dt)))
     throw std::invalid_argument(fmt::format("step: dt is {} s; it must be finite and > 0", dt));
   const Clock::time_point start = Clock::now();
@@ -199,7 +221,7 @@ StepReport step(World& world, double dt, const OnImpact& on_impact, const OnInst
   report.min_gap = std::numeric_limits<double>::infinity();
 
   // ANCHOR: step
-  Stepper stepper(world, dt, report, on_impact);
+  Stepper stepper(world, dt, report, listeners);
   stepper.begin_frame();
   int next = -1;
   double now = 0;
@@ -211,10 +233,15 @@ StepReport step(World& world, double dt, const OnImpact& on_impact, const OnInst
       continue;
     }
 
+    if (is_sensor_pair(world, pair.a, pair.b)) {
+      stepper.sight(pair.a, pair.b, now);
+      continue;
+    }
+
     // All contacts of this instant, together.
     const Island island = touching_island(world, pair, now, report);
     stepper.solve(island, now);
-    if (on_instant) on_instant(world, now);
+    if (listeners.instant) listeners.instant(world, now);
 
     // If nobody's course has changed, its event is gone, and it must be asked again.
     const int again = world.schedule.find(pair.a, pair.b);
@@ -225,10 +252,12 @@ StepReport step(World& world, double dt, const OnImpact& on_impact, const OnInst
   }
   // ANCHOR_END: step
 
+  if (world.effects.sleep) fall_asleep(world, dt, report);
   for (int body = 0; body < static_cast<int>(world.bodies.size()); ++body) {
     Body& b = world.bodies[body];
     if (b.held) report.lost_time = std::max(report.lost_time, dt - b.time);
-    b = {world.state_at(body, dt), 0, b.shape, false};
+    world.carry(body, dt, 0);
+    b.held = false;
   }
   report.step_ns = ns_since(start);
   report.ccd_ns = report.step_ns - report.lcp_ns;

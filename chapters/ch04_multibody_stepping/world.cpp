@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <memory>
 
 #include "ch02_hull_hierarchy/inside.hpp"
 #include "ch03_impulse_lcp/dantzig.hpp"
 #include "ch03_impulse_lcp/solver.hpp"
+#include "ch04_multibody_stepping/sensors.hpp"
 
 namespace fc::world {
 namespace {
@@ -41,8 +43,7 @@ void refuse_overlaps(const World& world, const Scene& scene) {
   for (int a = 0; a < count; ++a) {
     std::vector<int> others;
     tree.overlapping(boxes[a], [&](int b) {
-      if (b > a && !(world.bodies[a].state.is_static() && world.bodies[b].state.is_static()))
-        others.push_back(b);
+      if (b > a && (world.yields(a) || world.yields(b)) && !is_sensor_pair(world, a, b)) others.push_back(b);
     });
     std::sort(others.begin(), others.end());
     for (const int b : others) refuse_overlap(world, scene, a, b);
@@ -63,6 +64,10 @@ std::function<lcp::LcpResult(const lcp::Lcp&)> solver_of(const SolverSpec& spec)
   return [method, options](const lcp::Lcp& rows) { return lcp::solve(rows, method, options); };
 }
 
+bool is_centred_ball(const Shape& shape) {
+  return shape.kind == Shape::Kind::sphere && shape.core.vertices[0].isZero(0);
+}
+
 // How far the shape reaches along its own axes, m: half of the box about its centre of mass that holds it.
 Vec3 half_extent(const Shape& shape) {
   Vec3 half = Vec3::Zero();
@@ -73,35 +78,93 @@ Vec3 half_extent(const Shape& shape) {
 }  // namespace
 
 ca::Motion World::motion(int body, double time) const {
+  const Body& b = bodies[body];
   RigidBody state = state_at(body, time);
-  if (bodies[body].held) state.velocity = state.spin = Vec3::Zero();
-  return ca::Motion(state, bodies[body].held || state.is_static() ? Vec3(Vec3::Zero()) : gravity);
+  if (b.held) state.velocity = state.spin = Vec3::Zero();
+  ca::Motion motion(state);
+  if (b.held || b.asleep || state.is_static()) return motion;
+  add_effects(body, motion);
+  if (b.free) {
+    motion.free_start += motion.free_rate * ca::decayed_time(motion.spin_drag, time - b.time);
+    if (motion.spin_drag > 0) motion.free_rate *= std::exp(-motion.spin_drag * (time - b.time));
+  }
+  return motion;
 }
+
+// ANCHOR: motion
+// What the scene's effects make of a body's motion from the time on at which its state stands.
+void World::add_effects(int body, ca::Motion& motion) const {
+  const Body& b = bodies[body];
+  if (effects.gravity) motion.acceleration = *effects.gravity;
+  if (effects.drag) {
+    motion.drag = effects.drag->linear;
+    motion.spin_drag = effects.drag->angular;
+  }
+  if (b.free) {
+    motion.free = b.free;
+    motion.free_start = b.free_start;
+    motion.free_rate = b.free_rate;
+  }
+}
+// ANCHOR_END: motion
 
 RigidBody World::state_at(int body, double time) const {
   RigidBody state = bodies[body].state;
   const double elapsed = time - bodies[body].time;
-  if (elapsed == 0 || bodies[body].held || state.is_static()) return state;
-  const ca::Motion motion(state, gravity);
+  if (elapsed == 0 || stays(body)) return state;
+  ca::Motion motion(state);
+  if (yields(body)) add_effects(body, motion);
   state.position = motion.position_at(elapsed);
   state.velocity = motion.velocity_at(elapsed);
-  if (motion.spin_rate > 0) {
-    const Quat turn(Eigen::AngleAxisd(motion.spin_rate * elapsed, motion.spin_axis));
-    state.orientation = (turn * state.orientation).normalized();
+  state.spin = motion.spin_at(elapsed);
+  if (motion.free) {
+    state.orientation = Quat(motion.rotation_at(elapsed)).normalized();
+  } else if (motion.spin_rate > 0) {
+    const double angle = motion.spin_rate * ca::decayed_time(motion.spin_drag, elapsed);
+    state.orientation = (Quat(Eigen::AngleAxisd(angle, motion.spin_axis)) * state.orientation).normalized();
   }
   return state;
+}
+
+void World::set_course(int body, const RigidBody& state, double time) {
+  Body& b = bodies[body];
+  b.state = state;
+  b.time = time;
+  b.held = b.asleep = false;
+  if (!effects.gyroscopic || !yields(body)) return;
+  ca::Motion motion(state);
+  motion.turn_freely(principal[b.shape]);
+  b.free = motion.free;
+  b.free_start = 0;
+  b.free_rate = 1;
+}
+
+void World::carry(int body, double time, double name) {
+  Body& b = bodies[body];
+  const double elapsed = time - b.time;
+  b.state = state_at(body, time);
+  if (b.free && !b.held) {
+    const double decay = effects.drag ? effects.drag->angular : 0;
+    b.free_start += b.free_rate * ca::decayed_time(decay, elapsed);
+    if (decay > 0) b.free_rate *= std::exp(-decay * elapsed);
+  }
+  b.time = name;
 }
 
 ca::Motion World::course(int body, double time) const {
   const Body& b = bodies[body];
   ca::Motion path;
   path.position = b.state.position;
-  if (b.held || b.state.is_static()) return path;
-  path.acceleration = gravity;
+  if (stays(body)) return path;
   path.velocity = b.state.velocity;
+  if (yields(body)) {
+    if (effects.gravity) path.acceleration = *effects.gravity;
+    if (effects.drag) path.drag = effects.drag->linear;
+  }
   const double elapsed = time - b.time;
-  path.position = path.position_at(elapsed);
-  path.velocity = path.velocity_at(elapsed);
+  const Vec3 position = path.position_at(elapsed), velocity = path.velocity_at(elapsed);
+  path.position = position;
+  path.velocity = velocity;
   return path;
 }
 
@@ -120,7 +183,12 @@ Bounds World::swept_bounds(int body, double from, double to) const {
   Bounds box{start.cwiseMin(stop), start.cwiseMax(stop)};
   for (int axis = 0; axis < 3; ++axis) {
     if (path.acceleration[axis] == 0) continue;
-    const double turn = -path.velocity[axis] / path.acceleration[axis];
+    double turn = -path.velocity[axis] / path.acceleration[axis];  // with drag, this much of decayed_time
+    if (path.drag > 0) {
+      const double left =
+          1 + path.drag * path.velocity[axis] / (path.acceleration[axis] - path.drag * path.velocity[axis]);
+      turn = left > 0 ? -std::log(left) / path.drag : -1;
+    }
     if (!(turn > 0 && turn < end)) continue;
     const double there = path.position_at(turn)[axis];
     box.low[axis] = std::min(box.low[axis], there);
@@ -137,15 +205,23 @@ World build_world(const Scene& scene) {
   World world;
   world.shapes = build_shapes(scene, true);
   for (const Shape& shape : world.shapes) world.models.push_back(hulls::build_model(shape));
-  world.gravity = scene.gravity.value_or(Vec3::Zero());
+  world.effects = effects_of(scene);
   world.tolerance = scene.ccd.tolerance;
   world.impact.solver = solver_of(scene.solver);
   world.max_pairs = scene.ccd.max_iterations;
-  for (const BodySpec& spec : scene.bodies)
-    world.bodies.push_back({make_body(world.shapes[spec.shape], spec), 0, spec.shape, false});
   for (const Shape& shape : world.shapes) {
     world.half_extents.push_back(half_extent(shape));
-    world.ball_radius.push_back(shape.kind == Shape::Kind::sphere ? shape.radius : 0.0);
+    world.ball_radius.push_back(is_centred_ball(shape) ? shape.radius : 0.0);
+  }
+  if (world.effects.gyroscopic)
+    for (const Shape& shape : world.shapes)
+      world.principal.emplace_back(shape.mass.mass > 0 ? shape.mass.inertia : Mat3(Mat3::Identity()));
+  for (const BodySpec& spec : scene.bodies) {
+    Body body;
+    body.shape = spec.shape;
+    body.sensor = spec.is_sensor;
+    world.bodies.push_back(body);
+    world.set_course(static_cast<int>(world.bodies.size()) - 1, make_body(world.shapes[spec.shape], spec), 0);
   }
   refuse_overlaps(world, scene);
   return world;

@@ -3,10 +3,13 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "ch02_hull_hierarchy/advance.hpp"
 #include "ch03_impulse_lcp/impact.hpp"
+#include "ch04_multibody_stepping/effects.hpp"
 #include "ch04_multibody_stepping/schedule.hpp"
 #include "common/scene.hpp"
 #include "common/shape.hpp"
@@ -14,13 +17,28 @@
 namespace fc::world {
 
 // A body and the time within the frame, in s, at which its state stands. Between its own events a body is not
-// touched: its state at another time follows from its motion (constant spin; constant velocity, or exact free
-// fall).
+// touched: its state at another time follows from its motion (constant spin, or torque-free rotation;
+// constant velocity, or exact free fall; with or without drag).
 struct Body {
   RigidBody state;
   double time = 0;
   int shape = 0;
-  bool held = false;  // stays where it is until the frame's end, with its velocities: see step()
+  bool held = false;    // stays where it is until the frame's end, with its velocities: see step()
+  bool sensor = false;  // reports contacts, resolves none
+  bool asleep = false;  // at rest until something hits it: see sleep.hpp
+  double still = 0;     // s, how long it has been held without a break
+  // With a gyroscopic effect: its rotation since the last impact, and where on it the body is at `time`.
+  std::shared_ptr<const ca::TorqueFree> free;
+  double free_start = 0, free_rate = 1;
+};
+
+// A sensor and what touched it, the first time since the two were apart.
+struct Sighting {
+  double time = 0;  // s in the frame
+  int sensor = 0, body = 0;
+  Vec3 point = Vec3::Zero(), normal = Vec3::Zero();  // m, world; unit, from the sensor to the body
+  double gap = 0;                                    // m; negative if they overlap
+  double speed = 0;                                  // m/s, n.(v_body - v_sensor) there
 };
 
 struct World {
@@ -28,23 +46,45 @@ struct World {
   std::vector<hulls::Model> models;  // one for each shape
   std::vector<double> ball_radius;   // m, of each shape that is a ball; else 0
   std::vector<Vec3> half_extents;    // m, of each shape along its own axes, from its centre of mass
+  std::vector<ca::PrincipalInertia> principal;  // of each shape; empty without a gyroscopic effect
   std::vector<Body> bodies;
-  Schedule schedule;                   // of the frame that is being stepped
-  Vec3 gravity = Vec3::Zero();         // m/s^2; zero if the scene does not ask for any
-  double tolerance = 1e-6;             // m
-  std::int64_t max_pairs = 1'000'000;  // of nodes, for one search; it then goes on from where it got to
-  lcp::ImpactOptions impact = {};      // the solver of an instant's contacts
+  Schedule schedule;                         // of the frame that is being stepped
+  Effects effects;                           // what the scene asks for, or implies
+  std::vector<std::pair<int, int>> sighted;  // sensors and what touches them now, in order
+  double tolerance = 1e-6;                   // m
+  std::int64_t max_pairs = 1'000'000;        // of nodes, for one search; it then goes on from where it got to
+  lcp::ImpactOptions impact = {};            // the solver of an instant's contacts
 
   const hulls::Model& model_of(int body) const { return models[bodies[body].shape]; }
   double restitution_of(int a, int b) const {  // a pair takes the larger of its two shapes' values
     return std::max(shapes[bodies[a].shape].restitution, shapes[bodies[b].shape].restitution);
   }
-  // The motion of a body from a time in the frame on; a held or static body stands still.
+  // The body begins a new course: its state, standing at `time` (s in the frame), was set by something other
+  // than its own motion.
+  void set_course(int body, const RigidBody& state, double time);
+  // The body's state, moved along its course to stand at `time`, which from then on is called `name`.
+  void carry(int body, double time, double name);
+  // The motion of a body from a time in the frame on; one that stays stands still.
   ca::Motion motion(int body, double time) const;
   // The body's state moved to a time in the frame.
   RigidBody state_at(int body, double time) const;
-  // Whether it stays where it is until the frame's end.
-  bool stays(int body) const { return bodies[body].held || bodies[body].state.is_static(); }
+  // Whether it stays where it is until the frame's end, if nothing hits it.
+  bool stays(int body) const {
+    const Body& b = bodies[body];
+    if (b.held || b.asleep) return true;
+    const bool falls = !b.state.is_static() && effects.gravity;
+    return !falls && b.state.velocity.isZero(0) && b.state.spin.isZero(0);
+  }
+  // Whether an impulse at the body's surface can turn it, or its spin moves its surface along the normal.
+  bool turns(int body) const { return ball_radius[bodies[body].shape] == 0; }
+  // Whether two bodies are to be asked for contacts at all: one of them moves, and one can be moved, or is a
+  // sensor.
+  bool may_meet(int a, int b) const {
+    return !(stays(a) && stays(b)) && (yields(a) || yields(b) || bodies[a].sensor || bodies[b].sensor);
+  }
+  // Whether an impulse can move the body.
+  bool yields(int body) const { return !bodies[body].state.is_static(); }
+  void add_effects(int body, ca::Motion& motion) const;
   // The centre's place and velocity at a time in the frame, and its acceleration: all that matters of a ball.
   ca::Motion course(int body, double time) const;
   // A box around everything that the body reaches between two times in the frame, and the tolerance around
@@ -68,7 +108,11 @@ struct StepReport {
   double momentum_error = 0;   // the worst change at an impact, of sum |p| and of sum (|x x p| + |I w|)
   double energy_error =
       0;  // J, the worst difference between the change at an impact and what the law predicts
-  double energy_gain = 0;  // J, the largest gain of kinetic energy at an impact
+  double energy_gain =
+      0;  // J, the largest gain of kinetic energy at an impact, less what kinematic bodies did
+  double kinematic_work = 0;  // J, done by kinematic bodies
+  double slept_energy = 0;    // J, that bodies gave up when they fell asleep
+  int falls_asleep = 0, wakes = 0, sightings = 0;
   std::int64_t pairs = 0;  // of bodies whose swept boxes overlap: looked at
   std::int64_t queries = 0, node_pairs = 0, ccd_ns = 0, lcp_ns = 0, step_ns = 0;
 };
@@ -80,8 +124,16 @@ struct ImpactRecord {
   lcp::Impulse impulse;
 };
 using OnImpact = std::function<void(const ImpactRecord&)>;
+using OnSighting = std::function<void(const Sighting&)>;
 // Called after each solved instant, with the time in the frame: for tests that look between frames.
 using OnInstant = std::function<void(const World&, double time)>;
+
+// Whom a step tells what happens. Each may be empty.
+struct Listeners {
+  OnImpact impact;
+  OnInstant instant;
+  OnSighting sighting;
+};
 
 // One frame of dt seconds (> 0): from contact to contact.
 //
@@ -94,6 +146,6 @@ using OnInstant = std::function<void(const World&, double time)>;
 // velocities, and the time that it did not live is reported as lost_time. Throws NumericalFailure if an LCP
 // cannot be solved, or a search reaches its limit without progress; std::invalid_argument for a dt that is
 // not finite and > 0, and then nothing has moved.
-StepReport step(World& world, double dt, const OnImpact& on_impact = {}, const OnInstant& on_instant = {});
+StepReport step(World& world, double dt, const Listeners& listeners = {});
 
 }  // namespace fc::world

@@ -26,11 +26,12 @@ struct Events {
 inline Events run_world(fc::world::World& world, double dt, int frames) {
   Events events;
   for (int frame = 0; frame < frames; ++frame)
-    events.reports.push_back(fc::world::step(world, dt, [&](const fc::world::ImpactRecord& record) {
-      const double t = frame * dt + record.time;
-      if (events.all.empty() || events.all.back().t != t) ++events.instants;
-      events.all.push_back({t, record.contact, record.impulse});
-    }));
+    events.reports.push_back(
+        fc::world::step(world, dt, {.impact = [&](const fc::world::ImpactRecord& record) {
+                          const double t = frame * dt + record.time;
+                          if (events.all.empty() || events.all.back().t != t) ++events.instants;
+                          events.all.push_back({t, record.contact, record.impulse});
+                        }}));
   return events;
 }
 
@@ -42,7 +43,9 @@ inline double kinetic_energy(const fc::world::World& world) {
 
 inline double energy(const fc::world::World& world) {
   double sum = kinetic_energy(world);
-  for (const auto& body : world.bodies) sum -= body.state.mass * world.gravity.dot(body.state.position);
+  if (world.effects.gravity)
+    for (const auto& body : world.bodies)
+      sum -= body.state.mass * world.effects.gravity->dot(body.state.position);
   return sum;
 }
 

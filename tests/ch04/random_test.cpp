@@ -193,7 +193,7 @@ TEST(Thrown, RoundBodiesInATrayNeverOverlap) {
                             thrown(random, {"ball", "rod", "brick"}));
     for (int frame = 0; frame < 40; ++frame) {
       const auto report =
-          fc::world::step(world, 0.02, {}, [&](const fc::world::World&, double) { ++instants; });
+          fc::world::step(world, 0.02, {.instant = [&](const fc::world::World&, double) { ++instants; }});
       EXPECT_LE(report.energy_gain, 1e-12 * (1 + kinetic_energy(world)));
       EXPECT_LE(report.lcp_residual, 1e-10);
       for (int a = 0; a < 14; ++a)

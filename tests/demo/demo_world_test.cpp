@@ -93,15 +93,15 @@ TEST(SmallMeshes, OfFourThousandTrianglesDoNotOverlapWhereTheyCollide) {
   const std::vector<independent::Solid> solids(4, independent::make_solid(mesh, 500));
   int instants = 0;
   for (int frame = 0; frame < 50 && instants < 2; ++frame)
-    fc::world::step(world, 0.02, {}, [&](const fc::world::World& now, double time) {
-      if (++instants > 2) return;
-      const auto states = states_of(now, time);
-      for (const double s : {-1e-7, 0.0, 1e-7})
-        EXPECT_EQ(find_overlap(solids, independent::moved(solids, states, std::max(s, 0.0)),
-                               independent::How::every_pair),
-                  "")
-            << s;
-    });
+    fc::world::step(world, 0.02, {.instant = [&](const fc::world::World& now, double time) {
+                      if (++instants > 2) return;
+                      const auto states = states_of(now, time);
+                      for (const double s : {-1e-7, 0.0, 1e-7})
+                        EXPECT_EQ(find_overlap(solids, independent::moved(solids, states, std::max(s, 0.0)),
+                                               independent::How::every_pair),
+                                  "")
+                            << s;
+                    }});
   EXPECT_GE(instants, 2);
 }
 

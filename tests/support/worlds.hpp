@@ -30,11 +30,12 @@ inline std::vector<independent::State> states_of(const fc::world::World& world, 
     const fc::RigidBody body = world.state_at(i, time);
     const fc::Quat& q = body.orientation;
     const bool moves = !body.is_static();
-    states.push_back({vec(fc::frame_position(world.shapes[world.bodies[i].shape], body)),
-                      {q.w(), q.x(), q.y(), q.z()},
-                      vec(body.velocity),
-                      vec(body.spin),
-                      moves ? vec(world.gravity) : independent::Vec{}});
+    states.push_back(
+        {vec(fc::frame_position(world.shapes[world.bodies[i].shape], body)),
+         {q.w(), q.x(), q.y(), q.z()},
+         vec(body.velocity),
+         vec(body.spin),
+         moves ? vec(world.effects.gravity.value_or(fc::Vec3(fc::Vec3::Zero()))) : independent::Vec{}});
   }
   return states;
 }
@@ -86,7 +87,7 @@ inline Film film(fc::world::World& world, const std::vector<independent::Solid>&
       rows = points = 0;
       segments.push_back({start + time, start + dt, after});
     };
-    film.reports.push_back(fc::world::step(world, dt, on_impact, on_instant));
+    film.reports.push_back(fc::world::step(world, dt, {on_impact, on_instant, {}}));
     const auto end = states_of(world, 0);
     if (film.reports.back().lost_time > 0) {
       independent::watch(solids, {start + dt, start + dt, end}, 0, how, film.watch);

@@ -1,0 +1,36 @@
+// The effects of a scene: what it asks for, or implies, decided once. An effect that is off leaves nothing
+// behind.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/program.hpp"
+#include "common/scene.hpp"
+#include "common/types.hpp"
+
+namespace fc::world {
+
+// Which part of the pipeline each effect changes:
+//   Motion      gravity, drag, gyroscopic, kinematic: the motions that a body may have between two events
+//   Gap rule    sensor: a pair that is told of, and not stopped; sleep: a body that no pair is asked about
+//   Impact law  restitution: the right-hand side; rotation: the rows' angular parts
+struct Effects {
+  std::optional<Vec3> gravity;     // m/s^2
+  std::optional<DragSpec> drag;    // 1/s
+  std::optional<SleepSpec> sleep;  // s, m/s
+  bool gyroscopic = false;
+  bool rotation =
+      true;  // derived: off if no body that moves can be turned by an impulse, or changes by turning
+  bool restitution = false;
+  bool kinematic = false;
+  bool sensors = false;
+};
+
+Effects effects_of(const Scene& scene);
+
+// For --explain: every effect that is on, why, and what it adds; and what is derived.
+std::vector<Effect> explain(const Scene& scene);
+
+}  // namespace fc::world
