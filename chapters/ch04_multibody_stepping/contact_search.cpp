@@ -18,6 +18,11 @@ constexpr double kRoundingTerms = 64;  // a certified gap below so many rounding
 // with the default tolerance.
 constexpr double kStallShare = 0.01;
 
+// A pair without a gap to spend either parts, which is proved in some tens of steps, or slides or turns in
+// contact, which no number of steps would prove. So many pairs of nodes decide; more only cost. Consequence:
+// a pair that needs more is held for the rest of the frame.
+constexpr std::int64_t kStallPairs = 10'000;
+
 // For two balls in closed form: how many epsilons of the coordinates their gap may be off, and which share of
 // the gap that is spent this may be.
 constexpr double kBallRounding = 16;
@@ -141,7 +146,8 @@ void find_next_contact(const World& world, Pair& pair, double now, double dt, St
   hulls::ReachOptions options;
   options.interval = dt - now;
   options.tolerance = world.tolerance;
-  options.max_pairs = world.max_pairs;
+  const bool little = gap <= std::max(smallest, kStallShare * world.tolerance);
+  options.max_pairs = little ? std::min(world.max_pairs, kStallPairs) : world.max_pairs;
   const double spend = gap > world.tolerance ? world.tolerance : gap;
   options.target = gap > smallest ? 0.5 * spend : gap - smallest;
   options.slack = 0.25 * (gap > smallest ? spend : smallest);
@@ -150,7 +156,6 @@ void find_next_contact(const World& world, Pair& pair, double now, double dt, St
   report.node_pairs += reach.node_pairs;
   if (reach.status == hulls::Reach::Status::clear) return;
   const bool limit = reach.status == hulls::Reach::Status::limit;
-  const bool little = gap <= std::max(smallest, kStallShare * world.tolerance);
   pair.stalled = limit ? little : little || !(now + reach.time > now);
   pair.contact = !limit || pair.stalled;
   pair.time = pair.stalled ? now : now + reach.time;
@@ -161,12 +166,40 @@ void find_next_contact(const World& world, Pair& pair, double now, double dt, St
 Island touching_island(const World& world, const Pair& pair, double now, StepReport& report) {
   Island island;
   std::vector<int> open;
-  std::vector<int> seen;  // pairs
+  std::vector<int> seen;                          // pairs
+  std::vector<std::pair<int, int>> seen_at_rest;  // bodies of pairs that nobody keeps
   const auto add_body = [&](int body) {
     if (world.bodies[body].state.is_static()) return;
     if (std::find(island.bodies.begin(), island.bodies.end(), body) != island.bodies.end()) return;
     island.bodies.push_back(body);
     open.push_back(body);
+  };
+  const auto add_contacts = [&](const Pair& other) {
+    if (is_sensor_pair(world, other.a, other.b)) return;
+    const std::vector<lcp::Contact> contacts = contacts_of(world, other, now);
+    if (contacts.empty()) return;
+    island.contacts.insert(island.contacts.end(), contacts.begin(), contacts.end());
+    add_body(other.a);
+    add_body(other.b);
+  };
+  // Two bodies that stay where they are have no pair in the schedule; if something hits one, they matter.
+  const auto add_contacts_at_rest = [&](int body) {
+    if (!world.stays(body)) return;
+    std::vector<int> others;
+    world.schedule.overlapping(world.swept_bounds(body, now, now), [&](int other) {
+      if (other != body && world.stays(other) && world.schedule.find(body, other) < 0)
+        others.push_back(other);
+    });
+    std::sort(others.begin(), others.end());
+    for (const int other : others) {
+      const std::pair<int, int> names = std::minmax(body, other);
+      if (std::find(seen_at_rest.begin(), seen_at_rest.end(), names) != seen_at_rest.end()) continue;
+      seen_at_rest.push_back(names);
+      Pair resting;
+      resting.a = names.first;
+      resting.b = names.second;
+      add_contacts(resting);
+    }
   };
   add_body(pair.a);
   add_body(pair.b);
@@ -176,14 +209,9 @@ Island touching_island(const World& world, const Pair& pair, double now, StepRep
     for (const int number : world.schedule.pairs_of(body)) {
       if (std::find(seen.begin(), seen.end(), number) != seen.end()) continue;
       seen.push_back(number);
-      const Pair& other = world.schedule.pair(number);
-      if (is_sensor_pair(world, other.a, other.b)) continue;
-      const std::vector<lcp::Contact> contacts = contacts_of(world, other, now);
-      if (contacts.empty()) continue;
-      island.contacts.insert(island.contacts.end(), contacts.begin(), contacts.end());
-      add_body(other.a);
-      add_body(other.b);
+      add_contacts(world.schedule.pair(number));
     }
+    add_contacts_at_rest(body);
   }
   std::sort(island.bodies.begin(), island.bodies.end());
   std::stable_sort(island.contacts.begin(), island.contacts.end(),

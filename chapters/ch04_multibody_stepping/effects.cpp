@@ -66,7 +66,8 @@ std::vector<Effect> explain(const Scene& scene) {
     list.push_back({"no rotation", "derived: all bodies that move are balls, without friction",
                     "rows have no angular part; spins never change", 0});
   if (!on.gravity)
-    list.push_back({"rest", "derived: no gravity", "bodies at rest are not queried among each other", 0});
+    list.push_back({"rest", "derived: nothing accelerates a body",
+                    "bodies at rest are not queried among each other", 0});
   if (on.gravity)
     list.push_back(
         {"gravity", declared(scene, "gravity"), "free fall in closed form inside every motion", 0});

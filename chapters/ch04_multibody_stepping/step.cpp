@@ -101,11 +101,15 @@ class Stepper {
 
   // Stops the island's bodies until the frame's end.
   void hold(const Island& island, double now) {
+    const bool lies = std::none_of(
+        island.contacts.begin(), island.contacts.end(),
+        [&](const lcp::Contact& c) { return world_.carries(c.body_a) || world_.carries(c.body_b); });
     std::vector<int> stopped;
     for (const int body : island.bodies) {
       if (world_.bodies[body].held || world_.bodies[body].asleep) continue;
       world_.carry(body, now, now);
       world_.bodies[body].held = true;
+      world_.bodies[body].lies = lies;
       stopped.push_back(body);
     }
     new_courses(stopped, now);

@@ -26,7 +26,8 @@ struct Body {
   bool held = false;    // stays where it is until the frame's end, with its velocities: see step()
   bool sensor = false;  // reports contacts, resolves none
   bool asleep = false;  // at rest until something hits it: see sleep.hpp
-  double still = 0;     // s, how long it has been held without a break
+  bool lies = false;    // held, and on nothing that moves
+  double still = 0;     // s, how long it has lain without a break
   // With a gyroscopic effect: its rotation since the last impact, and where on it the body is at `time`.
   std::shared_ptr<const ca::TorqueFree> free;
   double free_start = 0, free_rate = 1;
@@ -82,6 +83,8 @@ struct World {
   bool may_meet(int a, int b) const {
     return !(stays(a) && stays(b)) && (yields(a) || yields(b) || bodies[a].sensor || bodies[b].sensor);
   }
+  // Whether it moves, whatever lies on it.
+  bool carries(int body) const { return !yields(body) && !stays(body); }
   // Whether an impulse can move the body.
   bool yields(int body) const { return !bodies[body].state.is_static(); }
   void add_effects(int body, ca::Motion& motion) const;
@@ -130,9 +133,9 @@ using OnInstant = std::function<void(const World&, double time)>;
 
 // Whom a step tells what happens. Each may be empty.
 struct Listeners {
-  OnImpact impact;
-  OnInstant instant;
-  OnSighting sighting;
+  OnImpact impact = {};
+  OnInstant instant = {};
+  OnSighting sighting = {};
 };
 
 // One frame of dt seconds (> 0): from contact to contact.
