@@ -99,18 +99,24 @@ class Stepper {
   // Solves everything that touches in the island, and starts the bodies anew from `now`.
   void solve(const Island& island, double now);
 
-  // Stops the island's bodies until the frame's end.
+  // Stops the island's bodies until the frame's end, and the kinematic ones that move into them: whoever
+  // would go on would go through.
   void hold(const Island& island, double now) {
-    const bool lies = std::none_of(
-        island.contacts.begin(), island.contacts.end(),
-        [&](const lcp::Contact& c) { return world_.carries(c.body_a) || world_.carries(c.body_b); });
-    std::vector<int> stopped;
-    for (const int body : island.bodies) {
-      if (world_.bodies[body].held || world_.bodies[body].asleep) continue;
+    std::vector<int> stopped = island.bodies;
+    bool lies = true;  // on nothing that moves
+    for (const lcp::Contact& contact : island.contacts)
+      for (const int body : {contact.body_a, contact.body_b}) {
+        if (!world_.carries(body)) continue;
+        lies = false;
+        const double towards_b = contact.normal.dot(world_.state_at(body, now).velocity_at(contact.point));
+        const bool into = body == contact.body_a ? towards_b > 0 : towards_b < 0;
+        if (into && std::find(stopped.begin(), stopped.end(), body) == stopped.end()) stopped.push_back(body);
+      }
+    std::erase_if(stopped, [&](int body) { return world_.bodies[body].held || world_.bodies[body].asleep; });
+    for (const int body : stopped) {
       world_.carry(body, now, now);
       world_.bodies[body].held = true;
       world_.bodies[body].lies = lies;
-      stopped.push_back(body);
     }
     new_courses(stopped, now);
   }
