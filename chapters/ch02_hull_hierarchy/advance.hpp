@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "ch01_convex_advancement/query.hpp"
@@ -23,7 +24,9 @@ struct ReachOptions {
 struct Reach {
   enum class Status { reached, clear, limit };
   Status status = Status::clear;
-  double time = 0;              // s; before it the gap is at least `target`. clear: the interval
+  double time = 0;  // s; before it the gap is at least `target`. clear: the interval
+  double start_gap = std::numeric_limits<double>::infinity();  // m, the gap at t = 0 is no less, unless
+                                                               // reached at once; rough where much is left
   LeafPair pair;                // reached: the leaves, with plane, bounds and witness points at `time`
   std::int64_t node_pairs = 0;  // pairs of boxes that were looked at
   std::int64_t leaf_pairs = 0;  // pairs of leaves whose distance was computed

@@ -315,7 +315,7 @@ void sort_and_merge(std::vector<FeaturePair>& pairs, double tolerance) {
 }  // namespace
 
 std::vector<ca::FeaturePair> contact_features(const Model& a, const Model& b, const ca::PairPose& pose,
-                                              const Vec3& origin_a, double tolerance) {
+                                              const Vec3& origin_a, double tolerance, double* gap) {
   const Mat3 to_a = pose.rotation_a.transpose();
   Collector collector{
       {a, {}, {}, {}, {}}, {b, pose.b_in_a, {}, {}, {}}, tolerance, a.radius + b.radius, {}, {}};
@@ -326,6 +326,7 @@ std::vector<ca::FeaturePair> contact_features(const Model& a, const Model& b, co
     if (nearest == nullptr || pair.gjk.lower < nearest->gjk.lower) nearest = &pair;
   }
   if (nearest != nullptr) {
+    if (gap != nullptr) *gap = nearest->gjk.lower;
     // The plane at which advancement stopped must be among the contacts, or the impulse would not stop the
     // approach.
     const FeaturePair w = witness(a, b, *nearest, to_a);

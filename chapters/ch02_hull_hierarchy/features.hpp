@@ -22,7 +22,10 @@ namespace fc::hulls {
 // (same normal within 1e-6, points within the tolerance) are merged; the result is sorted by kinds and
 // numbers. Vertices, edges and faces are numbered as in Model::mesh. If the features' tests leave nothing,
 // the nearest witness points are the contact.
+//
+// `gap`, if it is given, becomes the certified gap of the two (m), if that is at most the tolerance; it is
+// left alone if not.
 std::vector<ca::FeaturePair> contact_features(const Model& a, const Model& b, const ca::PairPose& pose,
-                                              const Vec3& origin_a, double tolerance);
+                                              const Vec3& origin_a, double tolerance, double* gap = nullptr);
 
 }  // namespace fc::hulls

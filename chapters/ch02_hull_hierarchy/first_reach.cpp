@@ -62,6 +62,7 @@ struct Search {
   // line from `gap` to the target: the claim of the certificate's row.
   double advanced(double t, double step, const Vec3& n, double gap, NodeId node_a, NodeId node_b) {
     ++reach.advances;
+    if (t == 0) reach.start_gap = std::min(reach.start_gap, gap);
     const double remaining = ca::remaining_above(t, options.interval);
     if (memory.certificate != nullptr) {
       const BoxQuad& quad_a = a.boxes.quads[node_a >> 2];

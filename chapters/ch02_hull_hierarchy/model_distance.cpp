@@ -61,7 +61,7 @@ ca::GjkResult leaf_distance(const ca::Convex& a, const ca::Convex& b, const ca::
 }
 
 ModelDistance model_distance(const Model& a, const Model& b, const ca::PairPose& pose, double tolerance,
-                             double cutoff) {
+                             double cutoff, double share) {
   ModelDistance result;
   result.upper = result.lower = std::numeric_limits<double>::infinity();
   const PairViews views = views_at_rest(pose);
@@ -89,7 +89,8 @@ ModelDistance model_distance(const Model& a, const Model& b, const ca::PairPose&
   look(down);
   while (!queue.empty()) {
     const NodePair top = queue.front();
-    if (top.lower >= std::min({result.lower, result.upper, cutoff})) break;
+    const double enough = std::max(share * result.upper, tolerance);
+    if (top.lower >= std::min({result.lower, result.upper, cutoff, enough})) break;
     std::pop_heap(queue.begin(), queue.end(), Farther{});
     queue.pop_back();
     if (!leaves(a, b, top)) {

@@ -23,6 +23,9 @@ constexpr double kStallShare = 0.01;
 // a pair that needs more is held for the rest of the frame.
 constexpr std::int64_t kStallPairs = 10'000;
 
+// How far apart a pair is that is farther than the tolerance is only reported: this share of it will do.
+constexpr double kRoughShare = 0.25;
+
 // For two balls in closed form: how many epsilons of the coordinates their gap may be off, and which share of
 // the gap that is spent this may be.
 constexpr double kBallRounding = 16;
@@ -88,12 +91,13 @@ bool are_balls(const World& world, const Pair& pair) {
          world.ball_radius[world.bodies[pair.b].shape] > 0;
 }
 
-// The contacts of one pair at time `now`; none if it does not touch.
-std::vector<lcp::Contact> contacts_of(const World& world, const Pair& pair, double now) {
+// The contacts of one pair at time `now`, and its certified gap (m); none if it does not touch.
+std::vector<lcp::Contact> contacts_of(const World& world, const Pair& pair, double now, double& certified) {
   if (are_balls(world, pair)) {
     const Balls balls(world, pair, now);
     const double gap = balls.gap();
     if (gap > world.tolerance) return {};
+    certified = gap - balls.rounding;
     const Vec3 normal = balls.apart.normalized();
     return {{pair.a, pair.b, balls.centre_a + (balls.radius_a + 0.5 * gap) * normal, normal, gap,
              world.restitution_of(pair.a, pair.b), false, false}};
@@ -102,8 +106,9 @@ std::vector<lcp::Contact> contacts_of(const World& world, const Pair& pair, doub
   if (out_of_reach(world, pair, motion_a, motion_b, 0)) return {};
   const ca::PairPose pose(motion_a, motion_b, 0);
   std::vector<lcp::Contact> contacts;
-  for (const ca::FeaturePair& feature : hulls::contact_features(
-           world.model_of(pair.a), world.model_of(pair.b), pose, motion_a.position, world.tolerance))
+  for (const ca::FeaturePair& feature :
+       hulls::contact_features(world.model_of(pair.a), world.model_of(pair.b), pose, motion_a.position,
+                               world.tolerance, &certified))
     contacts.push_back({pair.a, pair.b, 0.5 * (feature.point_a + feature.point_b), feature.normal,
                         feature.gap, world.restitution_of(pair.a, pair.b), world.turns(pair.a),
                         world.turns(pair.b)});
@@ -127,9 +132,22 @@ bool balls_meet(const World& world, Pair& pair, double now, double dt, StepRepor
   return true;
 }
 
+// A certified gap of the pair (m) for the step's smallest: rough where the pair is far apart, and no better
+// than it need be.
+double reported_gap(const World& world, const Pair& pair, const ca::PairPose& pose, double found,
+                    const StepReport& report) {
+  if (found >= report.min_gap) return found;
+  const double cutoff = std::max(world.tolerance, report.min_gap);
+  const double lower = hulls::model_distance(world.model_of(pair.a), world.model_of(pair.b), pose,
+                                             world.tolerance, cutoff, kRoughShare)
+                           .lower;
+  return std::max(found, lower);
+}
+
 }  // namespace
 
-void find_next_contact(const World& world, Pair& pair, double now, double dt, StepReport& report) {
+void find_next_contact(const World& world, Pair& pair, double now, double dt, std::optional<double> gap,
+                       StepReport& report) {
   pair.contact = pair.stalled = false;
   pair.time = dt;
   if (!world.may_meet(pair.a, pair.b)) return;
@@ -137,23 +155,40 @@ void find_next_contact(const World& world, Pair& pair, double now, double dt, St
   const ca::Motion motion_a = world.motion(pair.a, now), motion_b = world.motion(pair.b, now);
   if (out_of_reach(world, pair, motion_a, motion_b, dt - now)) return;
 
-  const hulls::Model& model_a = world.model_of(pair.a);
-  const hulls::Model& model_b = world.model_of(pair.b);
+  const hulls::Model &model_a = world.model_of(pair.a), &model_b = world.model_of(pair.b);
   const ca::PairPose pose(motion_a, motion_b, 0);
-  const double gap = hulls::model_distance(model_a, model_b, pose, world.tolerance).lower;
-  report.min_gap = std::min(report.min_gap, gap);
-  const double smallest = kRoundingTerms * ca::rounding_term(model_a.whole(), model_b.whole(), pose);
   hulls::ReachOptions options;
   options.interval = dt - now;
   options.tolerance = world.tolerance;
-  const bool little = gap <= std::max(smallest, kStallShare * world.tolerance);
-  options.max_pairs = little ? std::min(world.max_pairs, kStallPairs) : world.max_pairs;
-  const double spend = gap > world.tolerance ? world.tolerance : gap;
-  options.target = gap > smallest ? 0.5 * spend : gap - smallest;
-  options.slack = 0.25 * (gap > smallest ? spend : smallest);
-  const hulls::Reach reach = hulls::first_reach(model_a, motion_a, model_b, motion_b, options);
+  options.max_pairs = world.max_pairs;
   ++report.queries;
-  report.node_pairs += reach.node_pairs;
+  hulls::Reach reach;
+  const auto search = [&] {
+    reach = hulls::first_reach(model_a, motion_a, model_b, motion_b, options, world.memory);
+    report.node_pairs += reach.node_pairs;
+  };
+  if (!gap) {  // a pair that is within the tolerance already reaches `start` at once
+    options.target = 0.5 * world.tolerance;
+    options.slack = 0.25 * world.tolerance;
+    options.start = world.tolerance;
+    search();
+    if (reach.status == hulls::Reach::Status::reached && reach.time == 0)
+      gap = hulls::model_distance(model_a, model_b, pose, world.tolerance).lower;
+    if (reach.status == hulls::Reach::Status::clear)
+      report.min_gap = std::min(report.min_gap, reported_gap(world, pair, pose, reach.start_gap, report));
+  }
+  bool little = false;  // no gap to spend
+  if (gap) {
+    report.min_gap = std::min(report.min_gap, *gap);
+    const double smallest = kRoundingTerms * ca::rounding_term(model_a.whole(), model_b.whole(), pose);
+    little = *gap <= std::max(smallest, kStallShare * world.tolerance);
+    if (little) options.max_pairs = std::min(world.max_pairs, kStallPairs);
+    const double spend = std::min(*gap, world.tolerance);
+    options.target = *gap > smallest ? 0.5 * spend : *gap - smallest;
+    options.slack = 0.25 * (*gap > smallest ? spend : smallest);
+    options.start = -1;
+    search();
+  }
   if (reach.status == hulls::Reach::Status::clear) return;
   const bool limit = reach.status == hulls::Reach::Status::limit;
   pair.stalled = limit ? little : little || !(now + reach.time > now);
@@ -176,8 +211,10 @@ Island touching_island(const World& world, const Pair& pair, double now, StepRep
   };
   const auto add_contacts = [&](const Pair& other) {
     if (is_sensor_pair(world, other.a, other.b)) return;
-    const std::vector<lcp::Contact> contacts = contacts_of(world, other, now);
+    PairGap touching{other.a, other.b, 0};
+    const std::vector<lcp::Contact> contacts = contacts_of(world, other, now, touching.gap);
     if (contacts.empty()) return;
+    island.gaps.push_back(touching);
     island.contacts.insert(island.contacts.end(), contacts.begin(), contacts.end());
     add_body(other.a);
     add_body(other.b);

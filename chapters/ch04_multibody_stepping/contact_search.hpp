@@ -1,6 +1,8 @@
 // Where chapters 1 and 2 enter a step: the next contact of a pair, and all that touches at one instant.
 #pragma once
 
+#include <optional>
+
 #include "ch04_multibody_stepping/world.hpp"
 
 namespace fc::world {
@@ -11,12 +13,20 @@ namespace fc::world {
 // collided) may spend half of the gap that it has left, so that it can part, or slide, and can never reach
 // zero. A pair whose gap is below a hundredth of the tolerance has nothing left to spend: it is clear if it
 // provably keeps half of its gap (below 64 rounding terms: all of it, but for those), else it is stalled.
-void find_next_contact(const World& world, Pair& pair, double now, double dt, StepReport& report);
+// `gap` (m) is the pair's certified gap now, if it is known to be within the tolerance.
+void find_next_contact(const World& world, Pair& pair, double now, double dt, std::optional<double> gap,
+                       StepReport& report);
+
+struct PairGap {
+  int a = 0, b = 0;  // bodies
+  double gap = 0;    // m, certified
+};
 
 // Bodies that are connected by touching pairs, and the contacts between them.
 struct Island {
   std::vector<int> bodies;  // that can move, ascending
   std::vector<lcp::Contact> contacts;
+  std::vector<PairGap> gaps;  // of the pairs that touch
 };
 
 // Everything that touches (gap within the tolerance) at time `now`, connected to the given pair over bodies

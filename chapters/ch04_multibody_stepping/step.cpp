@@ -92,7 +92,12 @@ class Stepper {
   }
 
   void ask(int number, double now) {
-    find_next_contact(world_, schedule_.pair(number), now, dt_, report_);
+    Pair& pair = schedule_.pair(number);
+    std::optional<double> gap;  // known of those that touched at this instant
+    if (now == solved_at_)
+      for (const PairGap& known : solved_)
+        if (known.a == pair.a && known.b == pair.b) gap = known.gap;
+    find_next_contact(world_, pair, now, dt_, gap, report_);
     schedule_.answered(number, dt_);
   }
 
@@ -172,6 +177,8 @@ class Stepper {
   StepReport& report_;
   const Listeners& listeners_;
   std::vector<int> others_;
+  std::vector<PairGap> solved_;  // the pairs that touched at the last instant, and its time
+  double solved_at_ = -1;
 };
 
 void Stepper::solve(const Island& island, double now) {
@@ -197,6 +204,8 @@ void Stepper::solve(const Island& island, double now) {
         std::max({report_.momentum_error, (after.linear - before.linear).norm() / before.linear_size,
                   (after.angular - before.angular).norm() / before.angular_size});
   report_.lcp_ns += ns_since(start);
+  solved_ = island.gaps;
+  solved_at_ = now;
 
   std::vector<int> changed;
   if (!impact.impulses.empty())

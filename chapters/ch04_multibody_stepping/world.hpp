@@ -49,8 +49,9 @@ struct World {
   std::vector<Vec3> half_extents;    // m, of each shape along its own axes, from its centre of mass
   std::vector<ca::PrincipalInertia> principal;  // of each shape; empty without a gyroscopic effect
   std::vector<Body> bodies;
-  Schedule schedule;                         // of the frame that is being stepped
-  Effects effects;                           // what the scene asks for, or implies
+  mutable hulls::SearchMemory memory;  // of the search for a pair's next contact: nothing of it is a state
+  Schedule schedule;                   // of the frame that is being stepped
+  Effects effects;                     // what the scene asks for, or implies
   std::vector<std::pair<int, int>> sighted;  // sensors and what touches them now, in order
   double tolerance = 1e-6;                   // m
   std::int64_t max_pairs = 1'000'000;        // of nodes, for one search; it then goes on from where it got to
