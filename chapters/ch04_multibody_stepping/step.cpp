@@ -35,7 +35,7 @@ struct Totals {
       linear += body.momentum();
       angular += orbit + own;
       linear_size += body.momentum().norm();
-      angular_size += orbit.norm() + own.norm();
+      angular_size += body.position.norm() * body.momentum().norm() + own.norm();
       kinetic += body.kinetic_energy();
     }
   }

@@ -109,7 +109,7 @@ struct StepReport {
   double min_gap = 0;       // m, the smallest certified gap of the pairs that were examined; infinite if none
   double max_penetration = 0;  // m
   double lost_time = 0;        // s, the longest that a body was held
-  double momentum_error = 0;   // the worst change at an impact, of sum |p| and of sum (|x x p| + |I w|)
+  double momentum_error = 0;   // the worst change at an impact, of sum |p| and of sum (|x||p| + |I w|)
   double energy_error =
       0;  // J, the worst difference between the change at an impact and what the law predicts
   double energy_gain =
