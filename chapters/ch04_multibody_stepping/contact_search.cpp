@@ -35,6 +35,7 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 // Balls around the bodies that stay apart until the frame's end: no need to look closer.
 bool out_of_reach(const World& world, const Pair& pair, const ca::Motion& a, const ca::Motion& b,
                   double left) {
+  if (!world.effects.swept) return false;
   const double reach =
       world.shapes[world.bodies[pair.a].shape].reach + world.shapes[world.bodies[pair.b].shape].reach;
   const double travel =
@@ -100,7 +101,7 @@ std::vector<lcp::Contact> contacts_of(const World& world, const Pair& pair, doub
     certified = gap - balls.rounding;
     const Vec3 normal = balls.apart.normalized();
     return {{pair.a, pair.b, balls.centre_a + (balls.radius_a + 0.5 * gap) * normal, normal, gap,
-             world.restitution_of(pair.a, pair.b), false, false}};
+             world.restitution_of(pair.a, pair.b), world.turns(pair.a), world.turns(pair.b)}};
   }
   const ca::Motion motion_a = world.motion(pair.a, now), motion_b = world.motion(pair.b, now);
   if (out_of_reach(world, pair, motion_a, motion_b, 0)) return {};
@@ -166,6 +167,7 @@ void find_next_contact(const World& world, Pair& pair, double now, double dt, st
   const auto search = [&] {
     reach = hulls::first_reach(model_a, motion_a, model_b, motion_b, options, world.memory);
     report.node_pairs += reach.node_pairs;
+    report.advances += reach.advances;
   };
   if (!gap) {  // a pair that is within the tolerance already reaches `start` at once
     options.target = 0.5 * world.tolerance;

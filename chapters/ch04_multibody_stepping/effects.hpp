@@ -26,6 +26,9 @@ struct Effects {
   bool restitution = false;
   bool kinematic = false;
   bool sensors = false;
+  // Always on; the study turns them off, to measure what they are worth.
+  bool swept = true;  // pairs whose swept boxes are apart are not queried
+  bool arms = false;  // the zero lever arms of balls are computed, too
 };
 
 Effects effects_of(const Scene& scene);

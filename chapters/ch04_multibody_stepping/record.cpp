@@ -220,6 +220,9 @@ void summarize(const Scene& scene, const World& world, const std::vector<StepRep
   summary.add("smallest certified gap", worst.min_gap, "m");
   summary.add("largest penetration", worst.max_penetration, "m");
   summary.add("tolerance", world.tolerance, "m");
+  if (world.tolerance > scene.ccd.tolerance)
+    summary.add_note("tolerance was raised from",
+                     fmt::format("{} m: rounding allows no less", scene.ccd.tolerance));
   summary.add("worst LCP residual", worst.lcp_residual);
   summary.add("worst momentum change at an impact", worst.momentum_error, "of the sum of sizes");
   summary.add("largest kinetic energy gain at an impact", worst.energy_gain, "J");

@@ -15,8 +15,26 @@
 namespace fc::world {
 namespace {
 
+constexpr double kEverywhere = 1e12;  // m, of a box that leaves nothing out
+
 // What sums of a few coordinates may lose, as a share of them, with ample room.
 constexpr double kBoundsRounding = 1e-14;
+
+// Below this (m) the rounding of poses would not let a pair stop at half the tolerance: so many rounding
+// terms of chapter 1, of two bodies of the largest shape side by side. A pair may be 64 of them off (gap
+// rule).
+double least_tolerance(const World& world) {
+  constexpr double kTerms = 256;
+  double least = 0;
+  for (std::size_t i = 0; i < world.models.size(); ++i) {
+    RigidBody beside;
+    beside.position = Vec3(2 * world.shapes[i].reach, 0, 0);
+    const ca::PairPose pose(ca::Motion(RigidBody{}), ca::Motion(beside), 0);
+    const ca::Convex whole = world.models[i].whole();
+    least = std::max(least, kTerms * ca::rounding_term(whole, whole, pose));
+  }
+  return least;
+}
 
 void refuse_overlap(const World& world, const Scene& scene, int a, int b) {
   const hulls::Model& model_a = world.model_of(a);
@@ -169,6 +187,7 @@ ca::Motion World::course(int body, double time) const {
 }
 
 Bounds World::swept_bounds(int body, double from, double to) const {
+  if (!effects.swept) return {Vec3::Constant(-kEverywhere), Vec3::Constant(kEverywhere)};
   const ca::Motion path = course(body, from);
   const double end = to - from;
   // What the body fills about its centre: a box if it does not turn, a ball if it does.
@@ -223,6 +242,7 @@ World build_world(const Scene& scene) {
     world.bodies.push_back(body);
     world.set_course(static_cast<int>(world.bodies.size()) - 1, make_body(world.shapes[spec.shape], spec), 0);
   }
+  world.tolerance = std::max(scene.ccd.tolerance, least_tolerance(world));
   refuse_overlaps(world, scene);
   return world;
 }

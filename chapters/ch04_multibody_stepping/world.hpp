@@ -53,7 +53,7 @@ struct World {
   Schedule schedule;                   // of the frame that is being stepped
   Effects effects;                     // what the scene asks for, or implies
   std::vector<std::pair<int, int>> sighted;  // sensors and what touches them now, in order
-  double tolerance = 1e-6;                   // m
+  double tolerance = 1e-6;                   // m; the scene's, or what rounding allows at least
   std::int64_t max_pairs = 1'000'000;        // of nodes, for one search; it then goes on from where it got to
   lcp::ImpactOptions impact = {};            // the solver of an instant's contacts
 
@@ -78,7 +78,7 @@ struct World {
     return !falls && b.state.velocity.isZero(0) && b.state.spin.isZero(0);
   }
   // Whether an impulse at the body's surface can turn it, or its spin moves its surface along the normal.
-  bool turns(int body) const { return ball_radius[bodies[body].shape] == 0; }
+  bool turns(int body) const { return effects.arms || ball_radius[bodies[body].shape] == 0; }
   // Whether two bodies are to be asked for contacts at all: one of them moves, and one can be moved, or is a
   // sensor.
   bool may_meet(int a, int b) const {
@@ -117,7 +117,8 @@ struct StepReport {
   double kinematic_work = 0;  // J, done by kinematic bodies
   double slept_energy = 0;    // J, that bodies gave up when they fell asleep
   int falls_asleep = 0, wakes = 0, sightings = 0;
-  std::int64_t pairs = 0;  // of bodies whose swept boxes overlap: looked at
+  std::int64_t pairs = 0;     // of bodies whose swept boxes overlap: looked at
+  std::int64_t advances = 0;  // steps that were proved, of all queries
   std::int64_t queries = 0, node_pairs = 0, ccd_ns = 0, lcp_ns = 0, step_ns = 0;
 };
 
