@@ -1,0 +1,31 @@
+// Exercise 4.2: billiards in an ellipse: the next bounce, and not the last one again.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace fc::exercises {
+
+using Vec2 = Eigen::Vector2d;
+
+// The wall: x^2/a^2 + y^2/b^2 = 1.
+struct Ellipse {
+  double a = 1, b = 1;  // m, > 0
+};
+
+struct Bounce {
+  double time = 0;            // s, from the start
+  Vec2 place = Vec2::Zero();  // m, on the wall
+};
+
+// When and where a point that flies from `place` (m, inside or on the wall, up to rounding) with `velocity`
+// (m/s, not zero) next meets the wall. A start on the wall that leads inwards finds the other end of its
+// chord, however short or long, and never the start again; one that leads outwards, or along the wall within
+// rounding, is at the wall now: time 0. The place fulfils the wall's equation to 1e-15 or so, however many
+// bounces came before.
+Bounce next_bounce(const Ellipse& wall, const Vec2& place, const Vec2& velocity);
+
+// The velocity (m/s) after an elastic bounce at a place on the wall: the part along the wall stays, the other
+// is reversed.
+Vec2 reflect(const Ellipse& wall, const Vec2& place, const Vec2& velocity);
+
+}  // namespace fc::exercises

@@ -1,0 +1,29 @@
+// Exercise 4.4: an event queue of your own: beads on a wire.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace fc::exercises {
+
+// A point on a line.
+struct Bead {
+  double place = 0;     // m
+  double velocity = 0;  // m/s
+  double mass = 1;      // kg, > 0
+};
+
+struct BeadsResult {
+  std::int64_t collisions = 0;
+  std::int64_t events = 0;  // that were put into the queue
+};
+
+// Lets the beads, given from left to right, fly for `duration` (s, >= 0): constant velocities, and elastic
+// collisions of neighbours, one after the other as they come. Afterwards every bead has its place and
+// velocity at that time. Guarantees: beads never change their order (by more than rounding); every collision
+// happens, and none twice; energy and momentum stay; at most one event for each pair of neighbours at the
+// start, and three for each collision, so that the cost of a collision does not grow with the number of
+// beads.
+BeadsResult fly(std::vector<Bead>& beads, double duration);
+
+}  // namespace fc::exercises

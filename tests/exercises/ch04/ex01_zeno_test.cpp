@@ -1,0 +1,117 @@
+// Exercise 4.1. The oracle goes from bounce to bounce, in long double.
+#include "ex01_zeno.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace {
+
+using fc::exercises::ball_at;
+using fc::exercises::BallState;
+using fc::exercises::Drop;
+
+struct Slow {
+  long double height, velocity;
+  long bounces;
+};
+// Not for restitution 0, nor after the bounces have piled up.
+Slow slowly(const Drop& drop, double at) {
+  long double h = drop.height, v = drop.velocity, t = at;
+  const long double g = drop.gravity;
+  for (long n = 0;; ++n) {
+    const long double hit = std::sqrt(v * v + 2 * g * h), fall = (v + hit) / g;
+    if (t < fall) return {h + t * (v - 0.5L * g * t), v - g * t, n};
+    t -= fall;
+    h = 0;
+    v = drop.restitution * hit;
+  }
+}
+double zeno_time(const Drop& d) {
+  const double hit = std::sqrt(d.velocity * d.velocity + 2 * d.gravity * d.height);
+  return (d.velocity + hit) / d.gravity + 2 * d.restitution * hit / (d.gravity * (1 - d.restitution));
+}
+
+void expect_as_slowly(const Drop& drop, double t) {
+  const BallState ball = ball_at(drop, t);
+  const Slow slow = slowly(drop, t);
+  EXPECT_FALSE(ball.at_rest) << "at t = " << t << " s it still bounces";
+  EXPECT_EQ(ball.bounces, slow.bounces) << "bounces until t = " << t << " s";
+  EXPECT_NEAR(ball.height, static_cast<double>(slow.height), 1e-9) << "m, height at t = " << t << " s";
+  EXPECT_NEAR(ball.velocity, static_cast<double>(slow.velocity), 1e-7)
+      << "m/s, upwards, at t = " << t << " s";
+}
+
+TEST(Ex01Zeno, TheFirstFall) {
+  const Drop drop{2, 0, 0.5, 10};
+  EXPECT_NEAR(ball_at(drop, 0.3).height, 2 - 0.45, 1e-12) << "m: h - g t^2 / 2";
+  EXPECT_NEAR(ball_at(drop, 0.3).velocity, -3, 1e-12) << "m/s: falling";
+  EXPECT_EQ(ball_at(drop, 0.3).bounces, 0);
+}
+
+TEST(Ex01Zeno, FromBounceToBounce) {
+  for (const double e : {0.3, 0.5, 0.7, 0.9}) {
+    const Drop drop{1.3, 0.4, e, 9.81};
+    for (int i = 0; i < 400; ++i) expect_as_slowly(drop, (0.0003 + i / 401.0) * zeno_time(drop) * (1 - 1e-9));
+  }
+}
+
+TEST(Ex01Zeno, ThrownUpAndDown) {
+  for (const double v : {3.0, -3.0, -0.1})
+    for (int i = 1; i < 100; ++i) {
+      const Drop drop{0.7, v, 0.8, 9.81};
+      expect_as_slowly(drop, i / 100.0 * zeno_time(drop) * (1 - 1e-9));
+    }
+}
+
+TEST(Ex01Zeno, AfterInfinitelyManyBouncesItLies) {
+  const Drop drop{2, 0, 0.7, 9.81};
+  const double zeno = zeno_time(drop);
+  for (const double t : {zeno * (1 + 1e-12), zeno + 0.1, zeno + 1e6}) {
+    const BallState ball = ball_at(drop, t);
+    EXPECT_TRUE(ball.at_rest) << "t = " << t << " s is after the last of all bounces, " << zeno << " s";
+    EXPECT_EQ(ball.bounces, -1);
+    EXPECT_EQ(ball.height, 0) << "m";
+    EXPECT_EQ(ball.velocity, 0) << "m/s";
+  }
+  const BallState before = ball_at(drop, zeno * (1 - 1e-6));
+  EXPECT_FALSE(before.at_rest) << "a millionth before the end it still bounces";
+  EXPECT_GT(before.bounces, 30);
+}
+
+TEST(Ex01Zeno, WithoutLossItNeverRests) {
+  const Drop drop{1, 0, 1, 9.81};
+  for (const double t : {0.3, 1.0, 7.7, 100.0, 1e4}) expect_as_slowly(drop, t);
+}
+
+// 1 - e^k has no digits left where e is nearly 1; expm1 and log1p have them all.
+TEST(Ex01Zeno, WithHardlyAnyLoss) {
+  for (const double loss : {1e-3, 1e-6, 1e-9}) {
+    const Drop drop{1, 0, 1 - loss, 9.81};
+    for (const double t : {0.9, 12.3, 456.7, 5000.1}) {
+      if (t < zeno_time(drop)) expect_as_slowly(drop, t);
+    }
+  }
+}
+
+TEST(Ex01Zeno, WithoutRestitutionItStaysDown) {
+  const Drop drop{5, 0, 0, 10};
+  EXPECT_FALSE(ball_at(drop, 0.999).at_rest);
+  EXPECT_TRUE(ball_at(drop, 1.001).at_rest) << "it fell 5 m in 1 s, and does not bounce";
+  EXPECT_TRUE(ball_at({0, 0, 0.5, 10}, 0).at_rest) << "it lies there from the start";
+  EXPECT_EQ(ball_at({0, -2, 0.5, 10}, 0).bounces, 1) << "thrown down from the floor it bounces at once";
+}
+
+TEST(Ex01Zeno, EnergyFallsByTheSquareOfRestitution) {
+  const Drop drop{2, 1, 0.6, 9.81};
+  const double start = 0.5 + 9.81 * 2;  // J per kg
+  for (int i = 1; i < 300; ++i) {
+    const BallState ball = ball_at(drop, i / 300.0 * zeno_time(drop));
+    ASSERT_FALSE(ball.at_rest);
+    const double energy = 0.5 * ball.velocity * ball.velocity + 9.81 * ball.height;
+    EXPECT_NEAR(energy, start * std::pow(0.36, static_cast<double>(ball.bounces)), 1e-9)
+        << "J per kg after " << ball.bounces << " bounces";
+  }
+}
+
+}  // namespace
