@@ -1,0 +1,30 @@
+// A scene in our engine, in Bullet and in ODE, behind one face; the peers' headers stay out of the others'
+// sight.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "common/rigid_body.hpp"
+#include "common/scene.hpp"
+#include "common/shape.hpp"
+
+namespace fc::bench {
+
+class Engine {
+ public:
+  virtual ~Engine() = default;
+  virtual void step(double dt) = 0;
+  // The state of a body: position (of the centre of mass), orientation, velocity, spin. The rest is not set.
+  virtual RigidBody state(int body) const = 0;
+  // Points of contact that the last step had to do with.
+  virtual int contacts() const = 0;
+};
+
+// Balls, blocks, hulls and meshes, without friction, damping or sleep; each with its own defaults for the
+// rest. `shapes` are those of the scene, built.
+std::unique_ptr<Engine> make_ours(const Scene& scene);
+std::unique_ptr<Engine> make_bullet(const Scene& scene, const std::vector<Shape>& shapes, bool ccd);
+std::unique_ptr<Engine> make_ode(const Scene& scene, const std::vector<Shape>& shapes);
+
+}  // namespace fc::bench
