@@ -12,7 +12,6 @@ namespace fc::world {
 namespace {
 
 constexpr double kGravity = 9.81, kHeight = 2, kRestitution = 0.8, kEnd = 2.5;  // m/s^2, m, 1, s
-constexpr int kRepeats = 9;
 
 using Clock = std::chrono::steady_clock;
 
@@ -83,7 +82,7 @@ void study_bounces(const StudyOptions& options) {
     std::vector<double> times;
     double height = 0;
     std::int64_t queries = 0;
-    for (int repeat = 0; repeat < kRepeats; ++repeat) {
+    for (int repeat = 0; repeat < options.repeats; ++repeat) {
       World world = build_world(bouncing_ball(tolerance));
       const auto start = Clock::now();
       queries = step(world, kEnd).queries;
@@ -97,7 +96,7 @@ void study_bounces(const StudyOptions& options) {
     std::vector<double> times;
     double height = 0;
     std::int64_t steps = 0;
-    for (int repeat = 0; repeat < kRepeats; ++repeat) {
+    for (int repeat = 0; repeat < options.repeats; ++repeat) {
       const auto start = Clock::now();
       height = moreau_height(dt, steps);
       times.push_back(since_ns(start));
@@ -122,10 +121,10 @@ struct Flight {
   double ns = 0;
 };
 
-Flight fly(const Scene& scene, double seconds, int frames) {
+Flight fly(const Scene& scene, double seconds, int frames, int repeats) {
   Flight flight;
   std::vector<double> times;
-  for (int repeat = 0; repeat < 3; ++repeat) {
+  for (int repeat = 0; repeat < repeats; ++repeat) {
     World world = build_world(scene);
     const Run run = run_frames(world, seconds / frames, frames);
     times.push_back(run.total_ns());
@@ -151,24 +150,24 @@ void study_trajectories(const StudyOptions& options) {
       options.out / "trajectories.csv",
       {{"knob", ""}, {"value", ""}, {"impacts", ""}, {"error", "m"}, {"advances", ""}, {"median_ns", ""}});
   constexpr double kSeconds = 0.8, kBest = 1e-11, kUsual = 1e-9;
-  const Flight best = fly(tumbling(kBest), kSeconds, 1);
+  const Flight best = fly(tumbling(kBest), kSeconds, 1, options.repeats);
   const auto row = [&](const char* knob, const std::string& value, const Flight& flight) {
     table.row({std::string(knob), value, std::int64_t{flight.impacts}, distance(flight, best),
                flight.advances, flight.ns});
   };
   for (const char* tolerance : {"1e-2", "1e-3", "1e-4", "1e-5", "1e-6", "1e-7", "1e-8", "1e-9", "1e-10"})
-    row("tolerance [m]", tolerance, fly(tumbling(std::stod(tolerance)), kSeconds, 48));
+    row("tolerance [m]", tolerance, fly(tumbling(std::stod(tolerance)), kSeconds, 48, options.repeats));
   for (const int frames : {1, 4, 16, 48, 192, 768})
-    row("frames", std::to_string(frames), fly(tumbling(kUsual), kSeconds, frames));
+    row("frames", std::to_string(frames), fly(tumbling(kUsual), kSeconds, frames, options.repeats));
   for (const bool gyroscopic : {true, false}) {
     Scene scene = tumbling(kUsual);
     scene.gyroscopic = gyroscopic;
-    row("motion", gyroscopic ? "torque-free" : "constant spin", fly(scene, kSeconds, 48));
+    row("motion", gyroscopic ? "torque-free" : "constant spin", fly(scene, kSeconds, 48, options.repeats));
   }
   for (const char* method : {"dantzig", "lemke", "interior_point", "pgs"}) {
     Scene scene = tumbling(kUsual);
     scene.solver.method = method;
-    row("solver", method, fly(scene, kSeconds, 48));
+    row("solver", method, fly(scene, kSeconds, 48, options.repeats));
   }
   table.close();
 }

@@ -38,6 +38,9 @@ Arguments parse(int argc, char** argv) {
   app.add_option("--bodies", study.bodies, "Bodies of the largest gas")
       ->capture_default_str()
       ->check(CLI::Range(100, 3000));
+  app.add_option("--repeats", study.repeats, "Runs of each kind, for the median of their times")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 100));
   app.add_flag("--quiet", study.quiet, "No progress");
   try {
     app.parse(argc, argv);

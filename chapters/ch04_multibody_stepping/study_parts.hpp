@@ -14,6 +14,7 @@ namespace fc::world {
 struct StudyOptions {
   std::filesystem::path out;
   int bodies = 3000;   // of the largest gas, >= 100
+  int repeats = 5;     // of each run, for the median of its times
   bool quiet = false;  // no progress
 };
 

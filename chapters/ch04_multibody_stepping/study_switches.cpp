@@ -10,7 +10,7 @@ namespace fc::world {
 namespace {
 
 constexpr double kFrame = 1.0 / 60;  // s
-constexpr int kFrames = 60, kBodies = 216, kRepeats = 5;
+constexpr int kFrames = 60, kBodies = 216;
 
 struct Switch {
   const char* name;
@@ -69,14 +69,14 @@ void study_switches(const StudyOptions& options) {
     if (one.in_scene) one.in_scene(scene);
     std::vector<double> times;
     Run run;
-    for (int repeat = 0; repeat < kRepeats; ++repeat) {
+    for (int repeat = 0; repeat < options.repeats; ++repeat) {
       World world = build_world(scene);
       if (one.in_world) one.in_world(world.effects);
       run = run_frames(world, kFrame, kFrames);
       times.push_back(run.total_ns());
     }
     std::sort(times.begin(), times.end());
-    const double ns = times[kRepeats / 2];
+    const double ns = times[times.size() / 2];
     table.row({std::string(one.scene), std::string(one.name), std::int64_t{run.sum.impacts}, run.sum.pairs,
                run.sum.queries, run.sum.advances, std::int64_t{run.sum.lcp_rows}, ns / kFrames,
                ns / std::max(1, run.sum.impacts)});

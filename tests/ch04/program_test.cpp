@@ -134,6 +134,40 @@ TEST_F(Program, ExplainsWhatEachLineAskedFor) {
                                                    << still;
 }
 
+// An effect that is off writes nothing and counts nothing; one that is on with a neutral value changes no
+// byte of the tables.
+TEST_F(Program, EffectsThatAreOffLeaveNoTrace) {
+  ASSERT_EQ(chapter("two.yaml --poses --out plain").exit_code, 0);
+  ASSERT_EQ(chapter("two.yaml --poses --out neutral --set drag.linear=0 --set sleep.after=1").exit_code, 0);
+  for (const char* file : {"contacts.csv", "poses.csv"})
+    EXPECT_EQ(contents(folder / "plain" / file), contents(folder / "neutral" / file)) << file;
+  EXPECT_EQ(without_times(read_table(folder / "plain" / "steps.csv")),
+            without_times(read_table(folder / "neutral" / "steps.csv")));
+  const std::string plain = contents(folder / "plain" / "summary.json"),
+                    neutral = contents(folder / "neutral" / "summary.json");
+  for (const char* effect : {"drag", "sleep", "asleep", "gyroscopic", "kinematic", "sensor"})
+    EXPECT_EQ(plain.find(effect), std::string::npos) << effect << "\n" << plain;
+  for (const char* effect : {"drag (", "sleep ("})
+    EXPECT_NE(neutral.find(effect), std::string::npos) << effect;
+  EXPECT_FALSE(std::filesystem::exists(folder / "plain" / "sensors.csv"));
+}
+
+TEST_F(Program, WritesWhatSensorsSee) {
+  std::ofstream(folder / "gate.yaml")
+      << "step: {dt: 0.1, duration: 3}\nshapes:\n"
+         "  ball: {sphere: {radius: 0.5}, mass: 1}\n  gate: {box: {size: [1, 4, 4]}}\n"
+         "bodies:\n  - {shape: ball, velocity: [1, 0, 0]}\n"
+         "  - {shape: gate, static: true, sensor: true, position: [3, 0, 0]}\n";
+  const Outcome outcome = chapter("gate.yaml --out gate");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Table sensors = read_table(folder / "gate" / "sensors.csv");
+  ASSERT_EQ(sensors.rows(), 1);
+  EXPECT_EQ(sensors.header(), "t [s],sensor,body,x [m],y [m],z [m],nx,ny,nz,gap [m],speed [m/s]");
+  EXPECT_NEAR(sensors.at(0, "t"), 2, 1e-5);
+  EXPECT_NEAR(sensors.at(0, "speed"), -1, 1e-6);
+  EXPECT_EQ(read_table(folder / "gate" / "contacts.csv").rows(), 0);
+}
+
 TEST_F(Program, Sweeps) {
   const Outcome outcome = chapter("two.yaml --sweep restitution=0,0.5,1 --out swept");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
