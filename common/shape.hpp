@@ -59,7 +59,8 @@ Shape build_shape(const ShapeSpec& spec, double scene_restitution);
 std::vector<Shape> build_shapes(const Scene& scene, bool masses_needed);
 
 // The body that a scene places: its centre of mass goes where the shape's frame puts it. Static bodies have
-// no mass and no velocities, kinematic ones no mass; a body whose shape has no mass has its velocities, for queries.
+// no mass and no velocities, kinematic ones no mass; a body whose shape has no mass has its velocities, for
+// queries.
 RigidBody make_body(const Shape& shape, const BodySpec& spec);
 
 // Where the shape's own frame is, given the body (the inverse of what make_body did to the position).

@@ -26,8 +26,8 @@ struct ModelDistance {
 // Distance of the surfaces, best first: the pair of nodes with the smallest lower bound is opened next, and
 // what cannot come nearer than the nearest witness points is never opened. `tolerance` (m) as for
 // leaf_distance. Above `cutoff` (m) only lower >= cutoff is promised, and above the tolerance only lower >=
-// share * upper (1: as exact as it gets): far apart, a rough answer takes a fraction of the time. A solid inside another is not noticed
-// here, but by inside.hpp.
+// share * upper (1: as exact as it gets): far apart, a rough answer takes a fraction of the time. A solid
+// inside another is not noticed here, but by inside.hpp.
 ModelDistance model_distance(const Model& a, const Model& b, const ca::PairPose& pose, double tolerance,
                              double cutoff = std::numeric_limits<double>::infinity(), double share = 1);
 
