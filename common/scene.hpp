@@ -121,6 +121,7 @@ struct Scene {
   bool gyroscopic = false;
   std::optional<DragSpec> drag;
   std::optional<SleepSpec> sleep;
+  std::optional<double> envelope;  // m; 0: from the shapes' sizes
   CcdSpec ccd;
   SolverSpec solver;
   std::vector<ShapeSpec> shapes;                         // in file order

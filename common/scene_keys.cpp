@@ -33,6 +33,7 @@ std::vector<SceneKey> build_table() {
   {"sleep", 4, on, none, section, "", {}, "Bodies that were held in place (lost_time), slow and for long enough, are at rest until something hits them.", "{after: 0.25, speed: 0.01}", {}},
   {"sleep.after", 4, on, "0.25", number, "s", {0, 1e9, true}, "For how long a body must have been held without a break.", "0.25", {}},
   {"sleep.speed", 4, on, "0.01", number, "m/s", {0, 1e9}, "No point of a body that falls asleep is faster.", "0.01", {}},
+  {"envelope", 5, on, none, number, "m", {0, 1e3}, "Width of the shell in which contacts last; 0: a thousandth of the smallest reach of a shape that moves.", "5.0e-4", {}},
   {"restitution", 3, on, "0", number, "1", fraction, "Part of the approach speed that an impact returns; a pair takes the larger of its shapes' values.", "0.5", {}},
   {"ccd", 1, on, none, section, "", {}, "Continuous collision detection.", "{tolerance: 1.0e-6}", {}},
   {"ccd.tolerance", 1, on, "1e-6", number, "m", {0, 1e3, true}, "Gap at which two bodies are in contact.", "1.0e-6", {}},
@@ -114,7 +115,7 @@ const std::vector<SceneKey>& scene_keys() {
 }
 
 const std::vector<LaterName>& later_names() {
-  static const std::vector<LaterName> names = {{"envelope", 5, false}, {"friction", 6, false}};
+  static const std::vector<LaterName> names = {{"friction", 6, false}};
   return names;
 }
 

@@ -171,6 +171,22 @@ class Stepper {
     }
   }
 
+  // Chapter 5: what comes in slowly does not bounce.
+  void settle(Local& local) const {
+    for (lcp::Contact& contact : local.contacts)
+      if (-lcp::contact_velocity(local.states, contact) <= world_.rest_speed) contact.restitution = 0;
+  }
+  // Chapter 5: bodies that were stopped against gravity do not fall for the rest of the frame.
+  void support(const Local& local, const std::vector<lcp::Impulse>& impulses) {
+    for (const lcp::Impulse& impulse : impulses) {
+      const lcp::Contact& contact = local.contacts[static_cast<std::size_t>(impulse.contact)];
+      if (contact.restitution > 0) continue;
+      const double pull = contact.normal.dot(*world_.effects.gravity);
+      const int resting = local.numbers[static_cast<std::size_t>(pull > 0 ? contact.body_a : contact.body_b)];
+      world_.bodies[resting].supported = true;
+    }
+  }
+
   World& world_;
   Schedule& schedule_;
   double dt_;
@@ -184,6 +200,7 @@ class Stepper {
 void Stepper::solve(const Island& island, double now) {
   const Clock::time_point start = Clock::now();
   Local local(world_, island, now);
+  if (world_.rest_speed > 0) settle(local);
   const Totals before(local.states);
   const lcp::ImpactResult impact = lcp::resolve_impact(local.states, local.contacts, world_.impact);
   FC_CHECK(impact.status == lcp::Status::solved,
@@ -217,6 +234,7 @@ void Stepper::solve(const Island& island, double now) {
       if (body.held) report_.lost_time = std::max(report_.lost_time, now - body.time);
       changed.push_back(island.bodies[i]);
     }
+  if (world_.rest_speed > 0 && world_.effects.gravity) support(local, impact.impulses);
   if (world_.effects.sleep) wake(world_, now, changed, report_);
   for (const int body : changed) {
     const auto place = std::find(island.bodies.begin(), island.bodies.end(), body) - island.bodies.begin();

@@ -113,7 +113,7 @@ ca::Motion World::motion(int body, double time) const {
 // What the scene's effects make of a body's motion from the time on at which its state stands.
 void World::add_effects(int body, ca::Motion& motion) const {
   const Body& b = bodies[body];
-  if (effects.gravity) motion.acceleration = *effects.gravity;
+  if (effects.gravity && !b.supported) motion.acceleration = *effects.gravity;
   if (effects.drag) {
     motion.drag = effects.drag->linear;
     motion.spin_drag = effects.drag->angular;
@@ -176,7 +176,7 @@ ca::Motion World::course(int body, double time) const {
   if (stays(body)) return path;
   path.velocity = b.state.velocity;
   if (yields(body)) {
-    if (effects.gravity) path.acceleration = *effects.gravity;
+    if (effects.gravity && !b.supported) path.acceleration = *effects.gravity;
     if (effects.drag) path.drag = effects.drag->linear;
   }
   const double elapsed = time - b.time;
@@ -216,7 +216,7 @@ Bounds World::swept_bounds(int body, double from, double to) const {
   // Round-off of the positions and of the pose: some epsilons of the coordinates.
   const double size =
       std::max(box.low.cwiseAbs().maxCoeff(), box.high.cwiseAbs().maxCoeff()) + half.maxCoeff();
-  const Vec3 margin = half + Vec3::Constant(tolerance + kBoundsRounding * size);
+  const Vec3 margin = half + Vec3::Constant(std::max(tolerance, touch) + kBoundsRounding * size);
   return {box.low - margin, box.high + margin};
 }
 

@@ -23,11 +23,12 @@ struct Body {
   RigidBody state;
   double time = 0;
   int shape = 0;
-  bool held = false;    // stays where it is until the frame's end, with its velocities: see step()
-  bool sensor = false;  // reports contacts, resolves none
-  bool asleep = false;  // at rest until something hits it: see sleep.hpp
-  bool lies = false;    // held, and on nothing that moves
-  double still = 0;     // s, how long it has lain without a break
+  bool held = false;       // stays where it is until the frame's end, with its velocities: see step()
+  bool sensor = false;     // reports contacts, resolves none
+  bool asleep = false;     // at rest until something hits it: see sleep.hpp
+  bool supported = false;  // for this frame: what it lies on cancels gravity (chapter 5)
+  bool lies = false;       // held, and on nothing that moves
+  double still = 0;        // s, how long it has lain without a break
   // With a gyroscopic effect: its rotation since the last impact, and where on it the body is at `time`.
   std::shared_ptr<const ca::TorqueFree> free;
   double free_start = 0, free_rate = 1;
@@ -55,7 +56,9 @@ struct World {
   std::vector<std::pair<int, int>> sighted;  // sensors and what touches them now, in order
   double tolerance = 1e-6;                   // m; the scene's, or what rounding allows at least
   std::int64_t max_pairs = 1'000'000;        // of nodes, for one search; it then goes on from where it got to
-  lcp::ImpactOptions impact = {};            // the solver of an instant's contacts
+  double touch = 0;  // m, how near is a contact when something is hit; no less than the tolerance (chapter 5)
+  double rest_speed = 0;  // m/s, what comes in no faster does not bounce, and is then supported (chapter 5)
+  lcp::ImpactOptions impact = {};  // the solver of an instant's contacts
 
   const hulls::Model& model_of(int body) const { return models[bodies[body].shape]; }
   double restitution_of(int a, int b) const {  // a pair takes the larger of its two shapes' values
@@ -74,7 +77,7 @@ struct World {
   bool stays(int body) const {
     const Body& b = bodies[body];
     if (b.held || b.asleep) return true;
-    const bool falls = !b.state.is_static() && effects.gravity;
+    const bool falls = !b.state.is_static() && effects.gravity && !b.supported;
     return !falls && b.state.velocity.isZero(0) && b.state.spin.isZero(0);
   }
   // Whether an impulse at the body's surface can turn it, or its spin moves its surface along the normal.
@@ -84,6 +87,7 @@ struct World {
   bool may_meet(int a, int b) const {
     return !(stays(a) && stays(b)) && (yields(a) || yields(b) || bodies[a].sensor || bodies[b].sensor);
   }
+  bool convex(int body) const { return shapes[bodies[body].shape].convex(); }
   // Whether it moves, whatever lies on it.
   bool carries(int body) const { return !yields(body) && !stays(body); }
   // Whether an impulse can move the body.

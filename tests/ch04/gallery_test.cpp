@@ -2,9 +2,7 @@
 // any frame, says a second opinion. Also: laws that hold whatever the scene.
 #include <nlohmann/json.hpp>
 
-#include "demo/demo_run.hpp"
-#include "support/independent_gap.hpp"
-#include "support/worlds.hpp"
+#include "support/gallery.hpp"
 
 namespace {
 
@@ -14,28 +12,12 @@ namespace fs = std::filesystem;
 
 const fs::path scenes = FC_SOURCE_DIR "/chapters/ch04_multibody_stepping/scenes";
 
-// A touch may be this much of an overlap: rounding of poses that are written with 17 digits, at some metres.
-constexpr double kTouch = 1e-13;
-
 std::vector<fs::path> gallery() {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(scenes))
     if (entry.path().extension() == ".yaml") files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   return files;
-}
-
-Rounded shape_of(const fc::ShapeSpec& spec) {
-  const auto& g = spec.geometry;
-  if (const auto* ball = std::get_if<fc::SphereSpec>(&g)) return rounded_ball(ball->radius);
-  if (const auto* rod = std::get_if<fc::CapsuleSpec>(&g)) return rounded_rod(rod->radius, rod->length);
-  if (const auto* block = std::get_if<fc::BoxSpec>(&g)) return rounded_block(fc_test::vec(block->size));
-  if (const auto* hull = std::get_if<fc::HullSpec>(&g)) {
-    std::vector<Vec> points;
-    for (const fc::Vec3& p : hull->points) points.push_back(fc_test::vec(p));
-    return rounded_hull(points);
-  }
-  return rounded_mesh(read_obj(std::get<fc::MeshSpec>(g).file));
 }
 
 class Gallery : public testing::TestWithParam<fs::path> {};
@@ -47,32 +29,7 @@ TEST_P(Gallery, NothingOverlapsInAnyFrame) {
   const Outcome outcome = run(FC_BIN_DIR "/ch04_multibody_stepping " + GetParam().string() +
                               " --poses --quiet --out " + folder.string());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const fc::Scene scene = fc::read_scene({GetParam(), {}, {}, 4});
-  std::vector<Rounded> shapes;
-  for (const fc::ShapeSpec& spec : scene.shapes) shapes.push_back(shape_of(spec));
-
-  const int bodies = static_cast<int>(scene.bodies.size());
-  const auto frames = read_poses(read_table(folder / "poses.csv"), bodies);
-  ASSERT_EQ(static_cast<int>(frames.size()), scene.step->frames + 1);
-  const auto meets = [&](int a, int b) {
-    const fc::BodySpec &one = scene.bodies[a], &other = scene.bodies[b];
-    const bool yield = !(one.is_static || one.is_kinematic) || !(other.is_static || other.is_kinematic);
-    return yield && !one.is_sensor && !other.is_sensor;
-  };
-  std::int64_t looked = 0;
-  for (std::size_t frame = 0; frame < frames.size(); ++frame)
-    for (int a = 0; a < bodies; ++a)
-      for (int b = a + 1; b < bodies; ++b) {
-        const Rounded &one = shapes[scene.bodies[a].shape], &other = shapes[scene.bodies[b].shape];
-        const State &at_a = frames[frame][a], &at_b = frames[frame][b];
-        const double reach = one.core.reach + one.radius + other.core.reach + other.radius;
-        const double slack = norm(one.core.centroid) + norm(other.core.centroid);
-        if (!meets(a, b) || norm(at_a.position - at_b.position) > 1.05 * reach + 2 * slack) continue;
-        ++looked;
-        ASSERT_TRUE(apart(one, at_a, other, at_b, kTouch))
-            << name << ": bodies " << a << " and " << b << " overlap in frame " << frame;
-      }
-  EXPECT_GT(looked, 0) << "nothing ever came near anything";
+  expect_no_overlap(GetParam(), {}, 4, folder);
 
   const Table steps = read_table(folder / "steps.csv");
   int impacts = 0;

@@ -1,0 +1,46 @@
+#include "ch04_multibody_stepping/run.hpp"
+
+#include <chrono>
+
+#include "ch04_multibody_stepping/record.hpp"
+
+namespace fc::world {
+
+int run_scene(const Scene& scene, const RunContext& context, Summary& summary,
+              const StepFunction& step_frame) {
+  const auto start = std::chrono::steady_clock::now();
+  World world = build_world(scene);
+  const std::int64_t built_ns = (std::chrono::steady_clock::now() - start) / std::chrono::nanoseconds(1);
+  summary.add("bodies", static_cast<std::int64_t>(world.bodies.size()));
+  for (std::size_t i = 0; i < world.shapes.size(); ++i) {
+    const Shape& shape = world.shapes[i];
+    if (shape.kind == Shape::Kind::mesh) summary.add("shape " + shape.name, shape.report.text());
+    summary.add("shape " + shape.name + ", mass from", shape.mass_source);
+  }
+  summary.add_time("time to build shapes and hierarchies", built_ns);
+
+  const StepSpec& step = *scene.step;
+  Recorder recorder(scene, world, context);
+  recorder.start(world);
+  Progress progress("frames", step.frames, context.quiet);
+  try {
+    for (int frame = 0; frame < step.frames; ++frame) {
+      const StepReport report =
+          step_frame(world, step.dt,
+                     {[&](const ImpactRecord& impact) { recorder.impact(impact); },
+                      [&](const World& now, double time) { recorder.instant(now, time); },
+                      [&](const Sighting& sighting) { recorder.sighting(sighting); }});
+      recorder.frame(world, frame + 1, (frame + 1) * step.dt, report);
+      progress.update(frame + 1);
+    }
+  } catch (...) {  // what was simulated so far stays, and can be watched
+    recorder.close();
+    throw;
+  }
+  summary.add_note("motion", recorder.close());
+  if (recorder.first_impact()) summary.add("first impact at", *recorder.first_impact(), "s");
+  summarize(scene, world, recorder.reports(), summary);
+  return 0;
+}
+
+}  // namespace fc::world

@@ -1,0 +1,19 @@
+// A scene from its first frame to its last, with its files and its summary: what chapters 4 and later share.
+#pragma once
+
+#include <functional>
+
+#include "ch04_multibody_stepping/world.hpp"
+#include "common/program.hpp"
+
+namespace fc::world {
+
+// One frame: each chapter brings its own.
+using StepFunction = std::function<StepReport(World&, double dt, const Listeners&)>;
+
+// Builds the world, steps through all frames, writes contract 1.5's files into the run's folder, and fills
+// the summary. The exit code; throws as build_world() and the step do (what was written so far stays).
+int run_scene(const Scene& scene, const RunContext& context, Summary& summary,
+              const StepFunction& step_frame);
+
+}  // namespace fc::world

@@ -1,0 +1,55 @@
+// The rows of resting contacts, solved island by island: exactly where that is cheap, else to a residual that
+// is checked and told.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "ch03_impulse_lcp/contact.hpp"
+#include "ch03_impulse_lcp/dantzig.hpp"
+
+namespace fc::resting {
+
+struct IslandOptions {
+  int most_dense_rows = 400;  // up to so many, Dantzig's method; beyond, projected Gauss-Seidel
+  double residual = 1e-8;     // at which Gauss-Seidel is done, scale-free as in chapter 3
+  double accepted = 1e-5;     // with which it may end after the last sweep
+  int most_sweeps = 1000;
+};
+
+struct IslandResult {
+  bool solved = false;
+  double residual = 0;  // reached
+  int sweeps = 0;       // 0: Dantzig's method
+};
+
+// Finds impulses z >= 0 (N s), n, for contacts between bodies with
+//   w = J v+ + allowed >= 0,   z'w = 0,   v+ = v + M^-1 J' z,
+// and changes the bodies' velocities to v+: contact i may close in with at most allowed_i (m/s; negative: it
+// must part). z comes in as a guess. Where one method fails the other is tried. Unless solved (to 1e-10, or
+// to `accepted`), velocities stay as they are.
+class IslandSolver {
+ public:
+  IslandResult solve(std::span<RigidBody> bodies, std::span<const lcp::Contact> contacts,
+                     std::span<const double> allowed, std::span<double> z, const IslandOptions& options);
+
+ private:
+  IslandResult solve_dense(std::span<RigidBody> bodies, std::span<const lcp::Contact> contacts,
+                           std::span<const double> allowed, std::span<double> z);
+  IslandResult solve_sparse(std::span<RigidBody> bodies, std::span<const lcp::Contact> contacts,
+                            std::span<const double> allowed, std::span<double> z,
+                            const IslandOptions& options);
+
+  // A contact as one sweep sees it.
+  struct Row {
+    int a, b;                     // bodies; -1: no impulse moves it
+    Vec3 normal, arm_a, arm_b;    // m: r x n
+    Vec3 turn_a, turn_b;          // 1/(kg m): I^-1 (r x n)
+    double inverse_a, inverse_b;  // 1/kg
+    double diagonal, fixed;       // 1/kg; m/s: what bodies that no impulse moves contribute, and `allowed`
+  };
+  std::vector<Row> rows_;
+  lcp::DantzigSolver dantzig_;
+};
+
+}  // namespace fc::resting

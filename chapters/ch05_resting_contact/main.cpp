@@ -1,0 +1,75 @@
+// Chapter 5: resting and sliding contact inside a thin shell around every body; all else is chapter 4's.
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "ch04_multibody_stepping/run.hpp"
+#include "ch05_resting_contact/resting.hpp"
+
+namespace {
+
+using namespace fc;
+
+std::vector<Effect> explain(const Scene& scene) {
+  std::vector<Effect> list = world::explain(scene);
+  if (!scene.envelope) return list;
+  const world::World world = world::build_world(scene);
+  list.push_back({"envelope", "declared at " + scene.mark("envelope")->text(),
+                  fmt::format("contacts within {:.3g} m last: one LCP per island and frame",
+                              resting::envelope_of(scene, world)),
+                  1});
+  return list;
+}
+
+int run(const Scene& scene, const RunContext& context, Summary& summary) {
+  if (!scene.envelope)  // chapter 4, to the byte
+    return world::run_scene(scene, context, summary,
+                            [](world::World& world, double dt, const world::Listeners& listeners) {
+                              return world::step(world, dt, listeners);
+                            });
+  std::unique_ptr<resting::Resting> resting;
+  std::int64_t contacts = 0, sweeps = 0, searched = 0;
+  int largest = 0;
+  double energy = 0, steered = 0, residual = 0;
+  const int code = world::run_scene(scene, context, summary,
+                                    [&](world::World& world, double dt, const world::Listeners& listeners) {
+                                      if (!resting)
+                                        resting = std::make_unique<resting::Resting>(scene, world, dt);
+                                      const auto report = resting->step(world, listeners);
+                                      contacts += report.shell_contacts;
+                                      sweeps += report.sweeps;
+                                      searched += report.searched;
+                                      largest = std::max(largest, report.largest_island);
+                                      energy += report.steering_energy;
+                                      steered = std::max(steered, report.steered);
+                                      residual = std::max(residual, report.shell_residual);
+                                      return report.step;
+                                    });
+  if (resting) summary.add("envelope", resting->envelope(), "m");
+  summary.add("contacts in the envelope", contacts);
+  summary.add("largest island", std::int64_t{largest}, "rows");
+  summary.add("worst residual of resting contacts", residual);
+  summary.add("largest correction of a position in a frame", steered, "m");
+  summary.add("potential energy added by corrections", energy, "J");
+  summary.counter("envelope (pairs whose contacts were searched)", searched, 0);
+  summary.counter("sweeps of Gauss-Seidel", sweeps, 0);
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Chapter chapter;
+  chapter.number = 5;
+  chapter.name = "ch05_resting_contact";
+  chapter.purpose =
+      "Moves rigid bodies that collide, rest, slide and stack, without friction. With the key `envelope`, "
+      "contacts "
+      "within that distance last from frame to frame; without it, everything is as in chapter 4. First form: "
+      "large "
+      "islands are solved by Gauss-Seidel to a residual of 1e-8, and cost more than in other engines.";
+  chapter.example = "build/bin/ch05_resting_contact chapters/ch05_resting_contact/scenes/stack.yaml";
+  chapter.explain = explain;
+  chapter.run = run;
+  return run_program(argc, argv, chapter);
+}

@@ -1,0 +1,221 @@
+// Resting contact against what is known of it: weights, slopes, the end of Zeno's bounces.
+#include "ch05_resting_contact/resting.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/gallery.hpp"
+
+namespace {
+
+using namespace fc_test;
+using fc::Vec3;
+using fc::resting::Resting;
+using fc::resting::RestReport;
+
+struct Simulation {
+  fc::Scene scene;
+  fc::world::World world;
+  double dt;
+  Resting resting;
+  double lost = 0, steered = 0, smallest_gap = 1e300, residual = 0;
+  RestReport last;
+
+  Simulation(const std::string& text, double dt_)
+      : scene(read(text)), world(fc::world::build_world(scene)), dt(dt_), resting(scene, world, dt_) {}
+  static fc::Scene read(const std::string& text) {
+    const auto file = scratch("scenes") / "scene.yaml";
+    std::ofstream(file) << text;
+    return fc::read_scene({file, {}, {}, 5});
+  }
+  void run(double seconds, const fc::world::Listeners& listeners = {}) {
+    const int frames = static_cast<int>(std::lround(seconds / dt));
+    for (int frame = 0; frame < frames; ++frame) {
+      last = resting.step(world, listeners);
+      lost += last.step.lost_time;
+      steered += last.steering_energy;
+      smallest_gap = std::min(smallest_gap, last.smallest_gap);
+      residual = std::max(residual, last.step.lcp_residual);
+    }
+  }
+  const fc::RigidBody& body(int i) const { return world.bodies[static_cast<std::size_t>(i)].state; }
+  double kinetic() const {
+    double sum = 0;
+    for (const auto& b : world.bodies) sum += b.state.kinetic_energy();
+    return sum;
+  }
+};
+
+const std::string head =
+    "step: {dt: 0.01, duration: 1}\ngravity: [0, 0, -10]\nenvelope: 5.0e-4\nshapes:\n"
+    "  box: {box: {size: [1, 1, 1]}, mass: 2}\n  ball: {sphere: {radius: 0.5}, mass: 2}\n"
+    "  light: {box: {size: [1, 1, 1]}, mass: 1}\n  heavy: {box: {size: [1, 1, 1]}, mass: 1.0e6}\n"
+    "  floor: {box: {size: [40, 40, 1]}}\nbodies:\n  - {shape: floor, static: true, position: [0, 0, "
+    "-0.5]}\n";
+
+// Ten minutes. It is lifted by half the envelope at the start, and from then on nothing moves at all.
+TEST(Rest, ABoxStaysForTenMinutes) {
+  for (const double dt : {1 / 240.0, 1 / 60.0, 1 / 30.0}) {
+    Simulation s(head + "  - {shape: box, position: [0, 0, 0.5]}\n", dt);
+    s.run(5);
+    const Vec3 settled = s.body(1).position;
+    EXPECT_NEAR(settled.z(), 0.50025, 1e-6) << "m: in the envelope's middle";
+    s.run(595);
+    EXPECT_LE((s.body(1).position - settled).norm(), 1e-9) << "m of drift in ten minutes";
+    EXPECT_EQ(s.kinetic(), 0) << "J";
+    EXPECT_EQ(s.lost, 0) << "s: nothing is held any more";
+    EXPECT_NEAR(s.steered, 2 * 10 * 0.00025, 1e-5) << "J: what the lift took, and it is told";
+  }
+}
+
+// Each level carries all that is above it, whatever the corners' shares are.
+TEST(Rest, StacksCarryTheirWeight) {
+  for (const int count : {10, 50}) {
+    Simulation s(head + "  - {shape: box, grid: {count: [1, 1, " + std::to_string(count) +
+                     "], spacing: [0, 0, 1]}, position: [0, 0, 0.5]}\n",
+                 1 / 60.0);
+    s.run(4);
+    std::vector<double> force(static_cast<std::size_t>(count + 1), 0);
+    const double dt = s.dt;
+    s.run(dt, {.impact = [&](const fc::world::ImpactRecord& r) {
+            force[static_cast<std::size_t>(r.contact.body_a)] += r.impulse.impulse / dt;
+          }});
+    for (int level = 0; level < count; ++level)
+      EXPECT_NEAR(force[static_cast<std::size_t>(level)], 20.0 * (count - level), 1e-6 * 20 * count)
+          << "N under level " << level << " of " << count;
+    EXPECT_LE(s.kinetic(), 1e-15) << "J";
+    EXPECT_EQ(s.lost, 0);
+    EXPECT_GT(s.last.smallest_gap, 2e-4) << "m: every gap is in the shell's middle";
+    for (int i = 1; i <= count; ++i) EXPECT_NEAR(s.body(i).position.x(), 0, 1e-9) << "box " << i;
+  }
+}
+
+// A million to one, both ways up.
+TEST(Rest, MassRatiosBothWaysUp) {
+  for (const char* order :
+       {"  - {shape: light, position: [0, 0, 0.5]}\n  - {shape: heavy, position: [0, 0, 1.5]}\n",
+        "  - {shape: heavy, position: [0, 0, 0.5]}\n  - {shape: light, position: [0, 0, 1.5]}\n"}) {
+    Simulation s(head + order, 1 / 60.0);
+    s.run(5);
+    EXPECT_NEAR(s.body(1).position.z(), 0.5 + 0.00025, 2e-5) << order;
+    EXPECT_NEAR(s.body(2).position.z(), 1.5 + 0.0005, 4e-5) << order;
+    // Ten meganewtons on a kilogram: a normal that leans by 1e-12 pushes it sideways by 1e-5 N, without
+    // friction.
+    EXPECT_LE(s.body(1).velocity.norm() + s.body(2).velocity.norm(), 1e-3) << order;
+    EXPECT_LE(std::abs(s.body(1).velocity.z()) + std::abs(s.body(2).velocity.z()), 1e-8) << order;
+    EXPECT_EQ(s.lost, 0);
+    EXPECT_LE(s.residual, 1e-10);
+  }
+}
+
+// Down a smooth slope of 30 degrees: g sin(30) t^2 / 2, to first order in the step.
+TEST(Slide, DownASmoothSlope) {
+  double last_error = 0;
+  for (const double dt : {1 / 30.0, 1 / 60.0, 1 / 120.0}) {
+    Simulation s(
+        "step: {dt: 0.01, duration: 1}\ngravity: [5, 0, -8.660254037844387]\nenvelope: 5.0e-4\nshapes:\n"
+        "  box: {box: {size: [1, 1, 1]}, mass: 2}\n  floor: {box: {size: [400, 40, 1]}}\nbodies:\n"
+        "  - {shape: floor, static: true, position: [0, 0, -0.5]}\n  - {shape: box, position: [0, 0, "
+        "0.50025]}\n",
+        dt);
+    s.run(2);
+    const double error = s.body(1).position.x() - 0.5 * 5 * 4;
+    EXPECT_NEAR(s.body(1).velocity.x(), 10, 1e-9) << "m/s";
+    EXPECT_NEAR(error, 0.5 * 5 * 2 * dt, 0.1 * 5 * dt) << "m: half a step ahead of the closed form";
+    EXPECT_NEAR(s.body(1).position.z(), 0.50025, 1e-8) << "m: it neither sinks nor takes off";
+    EXPECT_LE(s.body(1).spin.norm(), 1e-9);
+    EXPECT_EQ(s.lost, 0);
+    if (last_error != 0) {
+      EXPECT_NEAR(last_error / error, 2, 0.1) << "half the step, half the error";
+    }
+    last_error = error;
+  }
+}
+
+// A ball's bounces end when they do on paper, within a few frames; nothing is lost.
+TEST(Zeno, ABallComesToRest) {
+  for (const double dt : {1 / 60.0, 1 / 120.0, 1 / 240.0}) {
+    // An envelope of g dt^2 (1 - e) / 2 takes over when the bounces that are left would end within a frame.
+    const std::string envelope = std::to_string(0.9 * 10 * dt * dt * 0.5 / 2);
+    Simulation s(
+        "step: {dt: 0.01, duration: 1}\nccd: {tolerance: 1.0e-8}\ngravity: [0, 0, -10]\nenvelope: " +
+            envelope +
+            "\nrestitution: 0.5\nshapes:\n"
+            "  ball: {sphere: {radius: 0.5}, mass: 2}\n  floor: {box: {size: [40, 40, 1]}}\nbodies:\n"
+            "  - {shape: floor, static: true, position: [0, 0, -0.5]}\n  - {shape: ball, position: [0, 0, "
+            "1.5]}\n",
+        dt);
+    const double fall = std::sqrt(2 * 1 / 10.0), zeno = fall * 1.5 / 0.5;
+    double rest = 0;
+    for (double t = dt; t < 3; t += dt) {
+      s.run(dt);
+      if (s.kinetic() > 1e-12) rest = t;
+    }
+    EXPECT_NEAR(rest, zeno, 2 * dt) << "s: Zeno's time";
+    EXPECT_EQ(s.lost, 0) << "s, with frames of " << dt << " s";
+    EXPECT_NEAR(s.body(1).position.z(), 0.5 + 0.5 * s.resting.envelope(), 1e-5);
+  }
+}
+
+// A box that lands flat without bounce lies still at once, and is not held.
+TEST(Landing, WithoutBounceLosesNoTime) {
+  Simulation s(head +
+                   "  - {shape: box, position: [0, 0, 1.7]}\n  - {shape: box, position: [3, 0, 0.9], "
+                   "orientation: [0.98, 0.1, 0.17, 0]}\n",
+               1 / 60.0);
+  s.run(3);
+  EXPECT_EQ(s.lost, 0);
+  EXPECT_NEAR(s.body(1).position.z(), 0.50025, 1e-5);
+  EXPECT_LE(s.kinetic(), 1e-12);
+  EXPECT_GT(s.smallest_gap, 0);
+}
+
+// Chapter 4's scenes with things that fall, in an envelope of the default width: nothing overlaps in any
+// frame.
+TEST(Program, NothingOverlapsInChapterFoursScenes) {
+  const std::filesystem::path scenes = FC_SOURCE_DIR "/chapters/ch04_multibody_stepping/scenes";
+  const std::vector<std::string> set = {"envelope=0", "ccd.tolerance=1.0e-7"};
+  for (const std::string scene :
+       {"tumbling_boxes", "bounce", "rain", "sleepers", "dominoes", "break", "cradle"}) {
+    const auto folder = scratch(scene), file = scenes / (scene + ".yaml");
+    ASSERT_EQ(run(FC_BIN_DIR "/ch05_resting_contact " + file.string() + " --poses --quiet --set " + set[0] +
+                  " --set " + set[1] + " --out " + folder.string())
+                  .exit_code,
+              0)
+        << scene;
+    expect_no_overlap(file, set, 5, folder);
+  }
+}
+
+// Without the key everything is chapter 4's, to the byte; with it, chapter 4's scenes lose no time any more.
+TEST(Program, WithoutAnEnvelopeIsChapterFour) {
+  const auto folder = scratch("both");
+  const std::string scenes = FC_SOURCE_DIR "/chapters/ch04_multibody_stepping/scenes/";
+  for (const std::string scene : {"tumbling_boxes", "gas", "bounce"}) {
+    ASSERT_EQ(run(FC_BIN_DIR "/ch04_multibody_stepping " + scenes + scene + ".yaml --poses --quiet --out " +
+                  (folder / "four").string())
+                  .exit_code,
+              0);
+    ASSERT_EQ(run(FC_BIN_DIR "/ch05_resting_contact " + scenes + scene + ".yaml --poses --quiet --out " +
+                  (folder / "five").string())
+                  .exit_code,
+              0);
+    for (const char* file : {"contacts.csv", "poses.csv"})
+      EXPECT_EQ(contents(folder / "four" / file), contents(folder / "five" / file)) << scene << " " << file;
+    EXPECT_EQ(without_times(read_table(folder / "four" / "steps.csv")),
+              without_times(read_table(folder / "five" / "steps.csv")));
+  }
+}
+
+TEST(Program, RefusesAnEnvelopeThatIsTooThin) {
+  const auto folder = scratch("thin");
+  const Outcome outcome = run(FC_BIN_DIR "/ch05_resting_contact " FC_SOURCE_DIR
+                                         "/chapters/ch05_resting_contact/scenes/stack.yaml --set "
+                                         "envelope=1e-6 --out " +
+                              folder.string());
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("less than 100 tolerances"), std::string::npos) << outcome.err;
+}
+
+}  // namespace
