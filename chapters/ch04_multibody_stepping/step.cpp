@@ -294,6 +294,7 @@ StepReport step(World& world, double dt, const Listeners& listeners) {
     Body& b = world.bodies[body];
     if (b.held) report.lost_time = std::max(report.lost_time, dt - b.time);
     world.carry(body, dt, 0);
+    b.was_held = b.held;
     b.held = false;
   }
   report.step_ns = ns_since(start);

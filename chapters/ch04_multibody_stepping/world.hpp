@@ -26,6 +26,7 @@ struct Body {
   bool held = false;       // stays where it is until the frame's end, with its velocities: see step()
   bool sensor = false;     // reports contacts, resolves none
   bool asleep = false;     // at rest until something hits it: see sleep.hpp
+  bool was_held = false;   // until the end of the last frame
   bool supported = false;  // for this frame: what it lies on cancels gravity (chapter 5)
   bool lies = false;       // held, and on nothing that moves
   double still = 0;        // s, how long it has lain without a break

@@ -13,6 +13,9 @@ namespace {
 // this part of the envelope, so that bodies outside each other's shells stay apart.
 constexpr double kSteerShare = 0.2, kMostSteered = 0.2;
 
+// A contact with a gap of less than so many tolerances has no way left.
+constexpr double kNoWay = 2;
+
 constexpr double kSteerResidual = 1e-4;
 constexpr int kMostHalvings = 6;
 
@@ -155,7 +158,9 @@ void Resting::solve_islands(world::World& world, const world::Listeners& listene
   std::vector<char> taken(shell.size());
   for (std::size_t i = 0; i < shell.size(); ++i) {
     // What comes in faster than the shell allows is an impact, and chapter 4's.
-    taken[i] = -lcp::contact_velocity(states, shell[i].contact) <= fast;
+    // (Unless it has no way left to come in: then it is stopped here, without a bounce.)
+    const bool slow = -lcp::contact_velocity(states, shell[i].contact) <= fast;
+    taken[i] = slow || shell[i].contact.gap < kNoWay * world.tolerance;
     if (!taken[i]) shell[i].impulse = 0;
   }
   const Islands islands(world, shell, taken);
@@ -163,9 +168,12 @@ void Resting::solve_islands(world::World& world, const world::Listeners& listene
   for (const std::vector<int>& island : islands.contacts) {
     Local local(world, shell, island, place);
     // The velocities that gravity would make of them by the frame's end.
+    // (One that was held did not live through the last frame: it has that frame's gravity already.)
     if (world.effects.gravity)
-      for (RigidBody& body : local.bodies)
-        if (!body.is_static()) body.velocity += dt_ * *world.effects.gravity;
+      for (std::size_t k = 0; k < local.bodies.size(); ++k)
+        if (!local.bodies[k].is_static() &&
+            !world.bodies[static_cast<std::size_t>(local.numbers[k])].was_held)
+          local.bodies[k].velocity += dt_ * *world.effects.gravity;
     std::vector<double> allowed, impulses;
     for (const int i : island) {
       allowed.push_back(std::max(0.0, shell[static_cast<std::size_t>(i)].contact.gap - middle) / dt_);
@@ -221,9 +229,8 @@ void Resting::solve_islands(world::World& world, const world::Listeners& listene
 // brings every gap a part of the way to the envelope's middle, and no other gap below it.
 void Resting::steer(world::World& world, RestReport& report) {
   const double middle = 0.5 * shell_.envelope();
-  const bool low = std::any_of(
-      shell_.contacts().begin(), shell_.contacts().end(),
-      [&](const ShellContact& c) { return c.impulse > 0 && c.contact.gap < middle * (1 - 1e-3); });
+  const bool low = std::any_of(shell_.contacts().begin(), shell_.contacts().end(),
+                               [&](const ShellContact& c) { return c.contact.gap < middle * (1 - 1e-3); });
   if (!low) return;
   shell_.find(world);  // as they are now
   std::vector<ShellContact>& shell = shell_.contacts();
