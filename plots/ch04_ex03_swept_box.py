@@ -9,6 +9,8 @@ import matplotlib.pyplot as plt
 
 from style import BLUE, ORANGE, Table, plot_main
 
+PAIRS = (500, 1000, 2000, 5000)  # marks of the axis; powers of ten alone would be one
+
 
 def draw(run: Path) -> plt.Figure:
     table = Table(run / "swept.csv")
@@ -18,6 +20,8 @@ def draw(run: Path) -> plt.Figure:
     axes.semilogy(at, table["pairs of boxes"], "o-", color=BLUE, ms=4, label="your boxes")
     axes.set(title="Pairs to be asked, of 1,000 blocks", xlabel="length of the frame [ms]", ylabel="pairs")
     axes.set_xticks(at, [f"{1000 * dt:.0f}" for dt in table["dt"]])
+    axes.set_yticks(PAIRS, [f"{pairs:,}" for pairs in PAIRS])
+    axes.minorticks_off()
     axes.legend()
     return figure
 

@@ -102,6 +102,39 @@ TEST(Ex02Billiard, ShortChordsAreNotLost) {
   }
 }
 
+// Not at the axes' ends, where a place on the wall is exact, but anywhere: there x^2/a^2 + y^2/b^2 is 1 only
+// up to rounding, and that must not become a part of the chord.
+TEST(Ex02Billiard, GrazingRaysFromTheWall) {
+  const Ellipse wall{2, 1.2};
+  const Vec2 half(wall.a, wall.b);
+  for (const double angle : {1e-2, 1e-4, 1e-6, 1e-8}) {
+    for (int i = 0; i < 200; ++i) {
+      const double at = 0.01 + 0.031 * i;
+      const Vec2 place = Vec2(std::cos(at), std::sin(at)).cwiseProduct(half);
+      // So that it gets to the other end, which is 2 angle further round the ellipse, in one second.
+      const Vec2 velocity =
+          2 * std::sin(angle) * Vec2(-std::sin(at + angle), std::cos(at + angle)).cwiseProduct(half);
+      const Bounce b = next_bounce(wall, place, velocity);
+      ASSERT_NEAR(b.time, 1, 1e-12 + 4e-15 / angle)
+          << "s: the chord from " << place.transpose() << " m at " << angle
+          << " rad to the wall; the place on the wall is taken for one off it";
+      ASSERT_LE(wall_error(wall, b.place), 1e-14) << "the bounce is off the wall";
+    }
+  }
+}
+
+TEST(Ex02Billiard, WhispersForTenThousandBounces) {
+  const Ellipse wall{1, 1};
+  constexpr double kAngle = 1e-6;  // rad to the wall
+  Vec2 x(1, 0), v(-std::sin(kAngle), std::cos(kAngle));
+  for (int i = 0; i < 10'000; ++i) {
+    const Bounce b = next_bounce(wall, x, v);
+    ASSERT_NEAR(b.time, 2 * kAngle, 1e-6 * kAngle) << "s, chord " << i << ": all are as long as the first";
+    x = b.place;
+    v = reflect(wall, x, v);
+  }
+}
+
 TEST(Ex02Billiard, OutwardsFromTheWallIsNow) {
   const Ellipse wall{2, 1};
   EXPECT_NEAR(next_bounce(wall, {2, 0}, {1, 0.3}).time, 0, 1e-15) << "s: it is at the wall, and goes into it";

@@ -12,6 +12,8 @@ using fc::Vec3;
 using fc::exercises::swept_box;
 using fc::world::Bounds;
 
+constexpr double kRounding = 1e-12;  // m
+
 struct Flight {
   Vec3 half;
   RigidBody start;
@@ -54,8 +56,9 @@ Bounds sampled(const Flight& f, int samples) {
 void expect_holds(const Flight& f) {
   const Bounds box = swept_box(f.half, f.start, f.acceleration, f.dt), inner = sampled(f, 2000);
   for (int i = 0; i < 3; ++i) {
-    EXPECT_LE(box.low[i], inner.low[i] + 1e-11) << "m: a corner sticks out along axis " << i << " (low side)";
-    EXPECT_GE(box.high[i], inner.high[i] - 1e-11)
+    EXPECT_LE(box.low[i], inner.low[i] + kRounding)
+        << "m: a corner sticks out along axis " << i << " (low side)";
+    EXPECT_GE(box.high[i], inner.high[i] - kRounding)
         << "m: a corner sticks out along axis " << i << " (high side)";
   }
 }
@@ -106,6 +109,22 @@ TEST(Ex03SweptBox, OfABlockThatTurnsRoundAndRound) {
 TEST(Ex03SweptBox, HoldsWhatFliesAndTurns) {
   std::mt19937_64 random(5);
   for (int k = 0; k < 300; ++k) expect_holds(random_flight(random, k % 3 == 0 ? 1 : k % 3 == 1 ? 6 : 30, 3));
+}
+
+// The path alone is no longer than the smallest box, and neither is the turn: so their sum is at most twice
+// as long. A ball around a thin block is not so modest.
+TEST(Ex03SweptBox, IsAtMostTwiceTheSmallest) {
+  std::mt19937_64 random(7);
+  for (int k = 0; k < 300; ++k) {
+    Flight f = random_flight(random, k % 3 == 0 ? 0.5 : k % 3 == 1 ? 2 : 10, k % 2 == 0 ? 0.2 : 3);
+    if (k % 5 == 0) f.half = Vec3(1, 0.05, 0.02);
+    const Bounds box = swept_box(f.half, f.start, f.acceleration, f.dt), inner = sampled(f, 2000);
+    for (int i = 0; i < 3; ++i) {
+      const double side = box.high[i] - box.low[i], smallest = inner.high[i] - inner.low[i];
+      ASSERT_LE(side, 2 * smallest + 1e-5)
+          << "m: the box's side along axis " << i << ", where " << smallest << " m would do; flight " << k;
+    }
+  }
 }
 
 // Never larger than the ball around the block, carried along its path.

@@ -25,18 +25,18 @@ BallState ball_at(const Drop& drop, double t) {
   const double arc = 2 * speed / g;  // s, the first one; each next is e times as long
 
   // After k arcs the part e^k is left of the time until Zeno: so k = log(left) / log(e).
-  const double gap = 1 - e;  // exact
-
-  const auto start_of = [&](double k) {
-    return gap > 0 ? arc * -std::expm1(k * std::log1p(-gap)) / gap : k * arc;
-  };
-  double k = std::floor(gap > 0 ? std::log1p(-std::min(since * gap / arc, 1 - 1e-15)) / std::log1p(-gap)
-                                : since / arc);
-  k = std::max(k, 0.0);
-  while (k > 0 && start_of(k) > since) --k;
-  for (int i = 0; i < 3 && start_of(k + 1) <= since; ++i) ++k;
-  const double up = gap > 0 ? speed * std::exp(k * std::log1p(-gap)) : speed;
-  return flying(0, up, g, since - start_of(k), static_cast<std::int64_t>(k) + 1);
+  const double gap = 1 - e, log_e = std::log(e), spent = std::min(since * gap / arc, 1 - 1e-15);
+  const auto start_of = [&](double k) { return gap > 0 ? arc * -std::expm1(k * log_e) / gap : k * arc; };
+  double k = std::floor(gap > 0 ? std::log1p(-spent) / log_e : since / arc);
+  // Rounding may have put it one off. Not in a loop: just before Zeno all arcs start at the same double.
+  if (k > 0 && start_of(k) > since) {
+    --k;
+  } else if (start_of(k + 1) <= since) {
+    ++k;
+  }
+  const double part = std::exp(k * log_e);
+  const double into = std::clamp(since - start_of(k), 0.0, part * arc);
+  return flying(0, part * speed, g, into, static_cast<std::int64_t>(k) + 1);
 }
 
 }  // namespace fc::exercises

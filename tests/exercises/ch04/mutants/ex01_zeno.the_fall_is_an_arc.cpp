@@ -25,17 +25,19 @@ BallState ball_at(const Drop& drop, double t) {
   const double arc = 2 * speed / g;  // s, the first one; each next is e times as long
 
   // After k arcs the part e^k is left of the time until Zeno: so k = log(left) / log(e).
-  const double gap = 1 - e;  // exact
-  if (gap > 0 && since * gap >= arc) return {0, 0, -1, true};
-  const auto start_of = [&](double k) {
-    return gap > 0 ? arc * -std::expm1(k * std::log1p(-gap)) / gap : k * arc;
-  };
-  double k = std::floor(gap > 0 ? std::log1p(-since * gap / arc) / std::log1p(-gap) : since / arc);
-  k = std::max(k, 0.0);
-  while (k > 0 && start_of(k) > since) --k;
-  while (start_of(k + 1) <= since) ++k;
-  const double up = gap > 0 ? speed * std::exp(k * std::log1p(-gap)) : speed;
-  return flying(0, up, g, since - start_of(k), static_cast<std::int64_t>(k) + 1);
+  const double gap = 1 - e, log_e = std::log(e), spent = since * gap / arc;
+  if (spent >= 1) return {0, 0, -1, true};
+  const auto start_of = [&](double k) { return gap > 0 ? arc * -std::expm1(k * log_e) / gap : k * arc; };
+  double k = std::floor(gap > 0 ? std::log1p(-spent) / log_e : since / arc);
+  // Rounding may have put it one off. Not in a loop: just before Zeno all arcs start at the same double.
+  if (k > 0 && start_of(k) > since) {
+    --k;
+  } else if (start_of(k + 1) <= since) {
+    ++k;
+  }
+  const double part = std::exp(k * log_e);
+  const double into = std::clamp(since - start_of(k), 0.0, part * arc);
+  return flying(0, part * speed, g, into, static_cast<std::int64_t>(k) + 1);
 }
 
 }  // namespace fc::exercises

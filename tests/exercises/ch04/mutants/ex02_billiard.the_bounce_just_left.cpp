@@ -12,14 +12,10 @@ Bounce next_bounce(const Ellipse& wall, const Vec2& place, const Vec2& velocity)
   const Vec2 half(wall.a, wall.b);
   const Vec2 p = place.cwiseQuotient(half), u = velocity.cwiseQuotient(half);
   const double uu = u.squaredNorm(), pu = p.dot(u);
-  const double inside = std::max(0.0, 1 - p.squaredNorm());  // >= 0; 0 on the wall
-  const double root = std::sqrt(pu * pu + uu * inside);
-  // The later root of uu t^2 + 2 pu t - inside = 0, without a difference of equals. On the wall the earlier
-  // one is the start: it is not looked at.
+  const double inside = 1 - p.squaredNorm();
+  const double root = std::sqrt(pu * pu + uu * std::max(0.0, inside));
   const double early = (-pu - root) / uu;
-  const double time = early >= 0 ? early
-                      : pu < 0   ? (root - pu) / uu
-                                 : inside / (pu + root + (pu + root == 0 ? 1 : 0));
+  const double time = early >= 0 ? early : (root - pu) / uu;
   const Vec2 q = p + time * u;
   return {time, q.normalized().cwiseProduct(half)};
 }

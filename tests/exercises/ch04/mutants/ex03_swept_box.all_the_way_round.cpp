@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace fc::exercises {
 namespace {
@@ -30,13 +29,11 @@ Interval of_path(double x, double v, double a, double dt) {
 Interval of_turn(double A, double B, double C, double angle) {
   Interval range{A + B, A + B};
   range.hold(A + B * std::cos(angle) + C * std::sin(angle));
-  const double size = std::hypot(B, C), crest = std::atan2(C, B);  // where it is largest
-  const auto passes = [&](double phi) {
-    const double round = 2 * std::numbers::pi;
-    return angle > 0 && phi < 10 * round;
-  };
-  if (passes(crest)) range.hold(A + size);
-  if (passes(crest + std::numbers::pi)) range.hold(A - size);
+  const double size = std::hypot(B, C);
+  if (angle > 0) {
+    range.hold(A + size);
+    range.hold(A - size);
+  }
   return range;
 }
 

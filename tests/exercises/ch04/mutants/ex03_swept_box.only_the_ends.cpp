@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace fc::exercises {
 namespace {
@@ -30,12 +29,6 @@ Interval of_path(double x, double v, double a, double dt) {
 Interval of_turn(double A, double B, double C, double angle) {
   Interval range{A + B, A + B};
   range.hold(A + B * std::cos(angle) + C * std::sin(angle));
-  const double size = std::hypot(B, C), crest = std::atan2(C, B);  // where it is largest
-  const auto passes = [&](double phi) {
-    const double round = 2 * std::numbers::pi;
-    return phi - round * std::floor(phi / round) <= angle;
-  };
-  if (passes(crest) && passes(crest + std::numbers::pi)) range.hold(A + size);
   return range;
 }
 

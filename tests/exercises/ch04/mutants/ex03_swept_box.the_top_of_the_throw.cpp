@@ -21,8 +21,6 @@ struct Interval {
 Interval of_path(double x, double v, double a, double dt) {
   Interval range{x, x};
   range.hold(x + dt * (v + 0.5 * a * dt));
-  const double turn = a == 0 ? -1 : -v / a;
-  if (turn > dt) range.hold(x);
   return range;
 }
 
