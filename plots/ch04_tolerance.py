@@ -20,7 +20,7 @@ def draw(run: Path) -> plt.Figure:
     left.set(title="First impact: too early by", ylabel="seconds")
     right.semilogx(tolerance, sweep["pairs of nodes"], "o-", ms=4, color=ORANGE, label="pairs of nodes, whole run")
     right.semilogx(tolerance, sweep["contacts"], "o-", ms=4, color=GREEN, label="contacts, whole run")
-    right.set(title="What it costs", ylabel="count", yscale="log", ylim=(1, 5000))
+    right.set(title="What it costs", ylabel="count", yscale="log", ylim=(1, 3e5))
     right.legend(loc="center right")
     for axes in (left, right):
         axes.set_xlabel("tolerance [m]")
