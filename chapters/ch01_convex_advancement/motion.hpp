@@ -100,19 +100,6 @@ struct Motion {
     return spin_drag > 0 ? Vec3(std::exp(-spin_drag * t) * undamped) : undamped;
   }
   double free_time(double t) const { return free_start + free_rate * decayed_time(spin_drag, t); }
-  // The same motion, seen from t (s) on.
-  Motion later(double t) const {
-    Motion rest = *this;
-    rest.position = position_at(t);
-    rest.rotation = rotation_at(t);
-    rest.velocity = velocity_at(t);
-    rest.spin = spin_at(t);
-    rest.spin_rate = rest.spin.norm();
-    if (rest.spin_rate > 0) rest.spin_axis = rest.spin / rest.spin_rate;
-    rest.free_start = free_time(t);
-    if (spin_drag > 0) rest.free_rate = free_rate * std::exp(-spin_drag * t);
-    return rest;
-  }
   Pose pose_at(double t) const { return {rotation_at(t), position_at(t)}; }
 
   // What holds at any time t >= 0: the largest |w| and, for a fixed unit n, |n x w| in rad/s, the largest
@@ -127,6 +114,9 @@ struct Motion {
     return free_change + spin_drag * spin_bound();
   }
   double wander() const { return free ? 2 * free_rate * free->across_bound() : 0; }
+
+  // Constant acceleration and constant spin: what certificates are replayed for.
+  bool steady() const { return !free && drag == 0 && spin_drag == 0; }
 
   // How far the rotation at t can be off, in units of 8 eps rad.
   double turned(double t) const {

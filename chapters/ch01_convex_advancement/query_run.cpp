@@ -1,7 +1,7 @@
 #include "ch01_convex_advancement/query_run.hpp"
+#include "common/stopwatch.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <map>
 #include <optional>
 
@@ -140,9 +140,9 @@ void run_queries(const Scene& scene, std::size_t queries, const Ask& ask, const 
                raised = 0;
   Progress progress("queries", static_cast<std::int64_t>(queries), context.quiet);
   for (std::size_t q = 0; q < queries; ++q) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     const AdvanceResult r = ask(q, options);
-    const std::int64_t wall_ns = (std::chrono::steady_clock::now() - start) / std::chrono::nanoseconds(1);
+    const std::int64_t wall_ns = watch.ns();
     const double toc = r.status == Status::separated ? 1
                        : options.interval > 0        ? r.toc / options.interval
                                                      : 0;

@@ -257,9 +257,8 @@ std::string replay_answer(double interval, const ReplayAnswer& answer, bool has_
 
 std::vector<Refusal> replay(const ReplayQuery& query, const ReplayAnswer& answer,
                             const std::vector<CertificateRow>& rows) {
-  if (query.motion_a.free || query.motion_b.free || query.motion_a.drag + query.motion_b.drag > 0 ||
-      query.motion_a.spin_drag + query.motion_b.spin_drag > 0)
-    return {{-1, "a body turns freely: only constant spin can be replayed"}};
+  if (!query.motion_a.steady() || !query.motion_b.steady())
+    return {{-1, "a body turns freely, or feels drag: only constant spin and acceleration can be replayed"}};
   const auto prove = [&](const LongVec& n, Long t, Long gap, Long speed, Long duration) {
     return prove_above(query, n, t, gap, speed, duration);
   };

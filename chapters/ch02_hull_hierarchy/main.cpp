@@ -1,10 +1,10 @@
 // Chapter 2: the first contact of two moving bodies of any shape, by a hierarchy of convex hulls.
-#include <chrono>
 
 #include "ch01_convex_advancement/query_run.hpp"
 #include "ch02_hull_hierarchy/advance.hpp"
 #include "ch02_hull_hierarchy/hull_model.hpp"
 #include "common/convex_hull.hpp"
+#include "common/stopwatch.hpp"
 
 namespace {
 
@@ -30,9 +30,9 @@ int run(const Scene& scene, const RunContext& context, Summary& summary) {
   const auto count = [](std::size_t n) { return static_cast<std::int64_t>(n); };
   std::vector<hulls::Model> models;
   for (const Shape& shape : shapes) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     models.push_back(hulls::build_model(shape));
-    const std::int64_t built_ns = (std::chrono::steady_clock::now() - start) / std::chrono::nanoseconds(1);
+    const std::int64_t built_ns = watch.ns();
     if (shape.kind != Shape::Kind::mesh) continue;
     summary.add("shape " + shape.name, shape.report.text());
     summary.add("shape " + shape.name + ", boxes", count(4 * models.back().boxes.quads.size()));

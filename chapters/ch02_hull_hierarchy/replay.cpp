@@ -206,10 +206,8 @@ std::string check_tree(const Model& model) {
 std::vector<ca::Refusal> replay(const PairQuery& query, const ca::ReplayAnswer& answer,
                                 const std::vector<ca::CertificateRow>& rows,
                                 const std::vector<ca::LeafBlock>& blocks) {
-  for (const ca::Motion& motion : {query.motion_a, query.motion_b})
-    if (motion.free || motion.drag > 0 || motion.spin_drag > 0)
-      return {
-          {-1, "a body turns freely, or feels drag: only constant spin and acceleration can be replayed"}};
+  if (!query.motion_a.steady() || !query.motion_b.steady())
+    return {{-1, "a body turns freely, or feels drag: only constant spin and acceleration can be replayed"}};
   // Where two bodies touch at the start, other pairs of their nodes have been advanced all the same: their
   // rows prove nothing of the answer.
   const bool at_start =

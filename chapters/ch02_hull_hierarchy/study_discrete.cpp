@@ -1,6 +1,5 @@
 // Continuous against discrete detection: time, what is missed, how late, how many contacts.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "ch02_hull_hierarchy/advance.hpp"
@@ -8,6 +7,7 @@
 #include "ch02_hull_hierarchy/features.hpp"
 #include "ch02_hull_hierarchy/study_parts.hpp"
 #include "common/program.hpp"
+#include "common/stopwatch.hpp"
 #include "common/table.hpp"
 
 namespace fc::hulls {
@@ -76,9 +76,9 @@ Contact contact_of(const StudyCase& c, const MotionPair& m) {
   if (!contact.hit) return contact;
   contact.toc = r.toc;
   contact.features = static_cast<std::int64_t>(r.features.size());
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   contact_features(c.model, c.model, ca::PairPose(m.a, m.b, r.toc), m.a.position_at(r.toc), r.tolerance);
-  contact.features_ns = (std::chrono::steady_clock::now() - start) / std::chrono::nanoseconds(1);
+  contact.features_ns = watch.ns();
   contact.more_features = static_cast<std::int64_t>(
       contact_features(c.model, c.model, ca::PairPose(m.a, m.b, r.toc), m.a.position_at(r.toc), 1e-3 * c.size)
           .size());
@@ -101,9 +101,9 @@ struct Cost {
   std::int64_t frames = 0, node_pairs = 0, leaf_pairs = 0, ns = 0;
   template <class Check>
   auto of(const Check& check) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     const auto result = check();
-    ns += (std::chrono::steady_clock::now() - start) / std::chrono::nanoseconds(1);
+    ns += watch.ns();
     ++frames;
     node_pairs += result.node_pairs;
     if constexpr (requires { result.leaf_pairs; })

@@ -5,6 +5,7 @@
 #include "ch02_hull_hierarchy/study_mesh.hpp"
 #include "ch02_hull_hierarchy/study_tally.hpp"
 #include "common/program.hpp"
+#include "common/stopwatch.hpp"
 
 namespace fc::hulls {
 
@@ -127,13 +128,12 @@ void study_triangles(const Shape& shape, const StudyOptions& options) {
     const StudyCase c = study_case(s, options, true);
     ReachOptions reach = reach_options(kStudyTolerance * c.size);
     reach.max_pairs = kMostPairs;
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     build_model(s);
-    const std::int64_t boxes_ns = (std::chrono::steady_clock::now() - start) / std::chrono::nanoseconds(1);
-    const auto start_hulls = std::chrono::steady_clock::now();
+    const std::int64_t boxes_ns = watch.ns();
+    const Stopwatch watch_hulls;
     const HullModel hulls = build_study_model(c.model, c.pieces, {Volume::hull, Leaves::pieces, kFewPoints});
-    const std::int64_t hulls_ns =
-        (std::chrono::steady_clock::now() - start_hulls) / std::chrono::nanoseconds(1);
+    const std::int64_t hulls_ns = watch_hulls.ns();
     const auto write = [&](const std::string& family, const char* search, std::int64_t ns,
                            const Tally& tally) {
       table.row(with({family, search, static_cast<std::int64_t>(s.core.triangles.size()),

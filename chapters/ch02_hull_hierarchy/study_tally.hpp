@@ -1,9 +1,8 @@
 // What the study counts of many queries, and how that becomes rows of a table.
 #pragma once
 
-#include <chrono>
-
 #include "ch02_hull_hierarchy/study_parts.hpp"
+#include "common/stopwatch.hpp"
 #include "common/table.hpp"
 
 namespace fc::hulls {
@@ -20,10 +19,9 @@ struct Tally {
 
   template <class Ask>
   void ask(const Ask& search) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     const auto reach = search();
-    ns.push_back(
-        static_cast<double>((std::chrono::steady_clock::now() - start) / std::chrono::nanoseconds(1)));
+    ns.push_back(static_cast<double>(watch.ns()));
     nodes.push_back(static_cast<double>(reach.node_pairs));
     leaves.push_back(static_cast<double>(reach.leaf_pairs));
     if constexpr (requires { reach.rounds; }) rounds.push_back(static_cast<double>(reach.rounds));

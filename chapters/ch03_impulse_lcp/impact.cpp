@@ -89,17 +89,6 @@ double fastest_approach(std::span<const RigidBody> bodies, std::span<const Conta
   return fastest;
 }
 
-void apply_impulse(std::span<RigidBody> bodies, const Contact& contact, double impulse) {
-  for (const bool on_b : {false, true}) {
-    RigidBody& body = bodies[static_cast<std::size_t>(on_b ? contact.body_b : contact.body_a)];
-    if (body.is_static()) continue;
-    const Vec3 push = (on_b ? impulse : -impulse) * contact.normal;
-    body.velocity += body.inverse_mass * push;
-    if (!(on_b ? contact.turns_b : contact.turns_a)) continue;
-    body.spin += body.inverse_inertia_world() * (contact.point - body.position).cross(push);
-  }
-}
-
 // One solve of the instant with the restitutions that the contacts carry; `scale` (m/s) grows with the
 // speeds. Returns the solver's status, or `limit` if its answer does not hold; velocities change only if it
 // returns `solved`.
@@ -156,6 +145,17 @@ void set_restitution(std::vector<Contact>& contacts, double restitution) {
 }
 
 }  // namespace
+
+void apply_impulse(std::span<RigidBody> bodies, const Contact& contact, double impulse) {
+  for (const bool on_b : {false, true}) {
+    RigidBody& body = bodies[static_cast<std::size_t>(on_b ? contact.body_b : contact.body_a)];
+    if (body.is_static()) continue;
+    const Vec3 push = (on_b ? impulse : -impulse) * contact.normal;
+    body.velocity += body.inverse_mass * push;
+    if (!(on_b ? contact.turns_b : contact.turns_a)) continue;
+    body.spin += body.inverse_inertia_world() * (contact.point - body.position).cross(push);
+  }
+}
 
 double approach_rounding(std::span<const RigidBody> bodies, std::span<const Contact> contacts) {
   return kApproachRounding * speed_scale(bodies, contacts);

@@ -44,6 +44,10 @@ struct ImpactResult {
       false;  // mixed restitutions had no solution: the smallest of the set was used for all
 };
 
+// Changes the velocities of a contact's two bodies by an impulse (N s) along its normal, at its point; of a
+// body that it does not turn (Contact::turns_a, turns_b) not the spin.
+void apply_impulse(std::span<RigidBody> bodies, const Contact& contact, double impulse);
+
 // The velocity below which a contact of this set does not count as approaching, in m/s: round-off of the
 // velocities that cancel in v = n.(v_B - v_A), 1e-12 of the fastest of the touching points (each |velocity| +
 // |spin| |arm|). resolve_impact takes the fastest of the whole instant, so that what it leaves is not

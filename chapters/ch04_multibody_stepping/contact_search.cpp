@@ -35,14 +35,14 @@ constexpr double kSpendShare = 0.01;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 // Balls around the bodies that stay apart until the frame's end: no need to look closer.
-bool out_of_reach(const World& world, const Pair& pair, const ca::Motion& a, const ca::Motion& b,
-                  double left) {
+bool out_of_reach(const World& world, const Pair& pair, const ca::Motion& a, const ca::Motion& b, double left,
+                  double within) {
   if (!world.effects.swept) return false;
   const double reach =
       world.shapes[world.bodies[pair.a].shape].reach + world.shapes[world.bodies[pair.b].shape].reach;
   const double travel =
       left * (ca::relative_velocity(a, b, 0).norm() + 0.5 * left * ca::relative_acceleration(a, b, 0).norm());
-  return (b.position - a.position).norm() > reach + travel + world.tolerance;
+  return (b.position - a.position).norm() > reach + travel + within;
 }
 
 // Two balls that see each other on a straight line: free, both falling, or one of them at rest without
@@ -107,22 +107,14 @@ std::vector<lcp::Contact> contacts_of(const World& world, const Pair& pair, doub
              world.restitution_of(pair.a, pair.b), world.turns(pair.a), world.turns(pair.b)}};
   }
   const ca::Motion motion_a = world.motion(pair.a, now), motion_b = world.motion(pair.b, now);
-  if (out_of_reach(world, pair, motion_a, motion_b, 0)) return {};
+  if (out_of_reach(world, pair, motion_a, motion_b, 0, within)) return {};
   const ca::PairPose pose(motion_a, motion_b, 0);
   std::vector<lcp::Contact> contacts;
   for (const ca::FeaturePair& feature :
-       hulls::contact_features(world.model_of(pair.a), world.model_of(pair.b), pose, motion_a.position,
-                               world.tolerance, &certified)) {
-    // Farther than the tolerance, features near a shared edge may be near in directions that do not part the
-    // bodies; of convex ones the normal must.
-    if (world.touch > world.tolerance && world.convex(pair.a) && world.convex(pair.b) &&
-        ca::support_gap(world.model_of(pair.a).whole(), world.model_of(pair.b).whole(), pose,
-                        feature.normal) < -within)
-      continue;
+       near_features(world, pair.a, pair.b, pose, motion_a.position, within, &certified))
     contacts.push_back({pair.a, pair.b, 0.5 * (feature.point_a + feature.point_b), feature.normal,
                         feature.gap, world.restitution_of(pair.a, pair.b), world.turns(pair.a),
                         world.turns(pair.b)});
-  }
   return contacts;
 }
 
@@ -157,6 +149,18 @@ double reported_gap(const World& world, const Pair& pair, const ca::PairPose& po
 
 }  // namespace
 
+std::vector<ca::FeaturePair> near_features(const World& world, int a, int b, const ca::PairPose& pose,
+                                           const Vec3& origin_a, double within, double* gap) {
+  const hulls::Model &model_a = world.model_of(a), &model_b = world.model_of(b);
+  std::vector<ca::FeaturePair> features =
+      hulls::contact_features(model_a, model_b, pose, origin_a, within, gap);
+  if (within > world.tolerance && world.convex(a) && world.convex(b))
+    std::erase_if(features, [&](const ca::FeaturePair& f) {
+      return ca::support_gap(model_a.whole(), model_b.whole(), pose, f.normal) < -within;
+    });
+  return features;
+}
+
 void find_next_contact(const World& world, Pair& pair, double now, double dt, std::optional<double> gap,
                        StepReport& report) {
   pair.contact = pair.stalled = false;
@@ -164,7 +168,7 @@ void find_next_contact(const World& world, Pair& pair, double now, double dt, st
   if (!world.may_meet(pair.a, pair.b)) return;
   if (are_balls(world, pair) && balls_meet(world, pair, now, dt, report)) return;
   const ca::Motion motion_a = world.motion(pair.a, now), motion_b = world.motion(pair.b, now);
-  if (out_of_reach(world, pair, motion_a, motion_b, dt - now)) return;
+  if (out_of_reach(world, pair, motion_a, motion_b, dt - now, world.tolerance)) return;
 
   const hulls::Model &model_a = world.model_of(pair.a), &model_b = world.model_of(pair.b);
   const ca::PairPose pose(motion_a, motion_b, 0);

@@ -17,6 +17,13 @@ namespace fc::world {
 void find_next_contact(const World& world, Pair& pair, double now, double dt, std::optional<double> gap,
                        StepReport& report);
 
+// The features of a pair that are within a distance (m) of each other, at a pose; see
+// hulls::contact_features. Of two convex bodies only those whose normal parts them, up to that distance:
+// farther apart than the tolerance, features near an edge that both share can be near each other in other
+// directions, too. `gap` as there.
+std::vector<ca::FeaturePair> near_features(const World& world, int a, int b, const ca::PairPose& pose,
+                                           const Vec3& origin_a, double within, double* gap);
+
 struct PairGap {
   int a = 0, b = 0;  // bodies
   double gap = 0;    // m, certified
@@ -29,8 +36,8 @@ struct Island {
   std::vector<PairGap> gaps;  // of the pairs that touch
 };
 
-// Everything that touches (gap within the tolerance) at time `now`, connected to the given pair over bodies
-// that can move.
+// Everything that touches (gap within the tolerance, or World::touch) at time `now`, connected to the given
+// pair over bodies that can move.
 Island touching_island(const World& world, const Pair& pair, double now, StepReport& report);
 
 }  // namespace fc::world

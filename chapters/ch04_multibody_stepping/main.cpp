@@ -7,10 +7,7 @@ namespace {
 using namespace fc;
 
 int run(const Scene& scene, const RunContext& context, Summary& summary) {
-  return world::run_scene(scene, context, summary,
-                          [](world::World& world, double dt, const world::Listeners& listeners) {
-                            return world::step(world, dt, listeners);
-                          });
+  return world::run_scene(scene, context, summary, world::step);
 }
 
 }  // namespace

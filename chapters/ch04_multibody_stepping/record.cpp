@@ -50,7 +50,7 @@ Totals totals_of(const World& world) {
 Recorder::Recorder(const Scene& scene, const World& world, const RunContext& context)
     : steps_(context.out_dir / "steps.csv", steps_columns()),
       contacts_(context.out_dir / "contacts.csv", contacts_columns()),
-      motion_(scene.name, "ch04_multibody_stepping", scene.step->dt),
+      motion_(scene.name, context.chapter, scene.step->dt),
       folder_(context.out_dir),
       dt_(scene.step->dt) {
   if (context.poses) poses_.emplace(context.out_dir / "poses.csv", poses_columns());

@@ -1,16 +1,15 @@
 #include "ch04_multibody_stepping/run.hpp"
 
-#include <chrono>
-
 #include "ch04_multibody_stepping/record.hpp"
+#include "common/stopwatch.hpp"
 
 namespace fc::world {
 
 int run_scene(const Scene& scene, const RunContext& context, Summary& summary,
               const StepFunction& step_frame) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   World world = build_world(scene);
-  const std::int64_t built_ns = (std::chrono::steady_clock::now() - start) / std::chrono::nanoseconds(1);
+  const std::int64_t built_ns = watch.ns();
   summary.add("bodies", static_cast<std::int64_t>(world.bodies.size()));
   for (std::size_t i = 0; i < world.shapes.size(); ++i) {
     const Shape& shape = world.shapes[i];

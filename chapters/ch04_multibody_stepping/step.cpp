@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -13,15 +12,10 @@
 #include "ch04_multibody_stepping/sensors.hpp"
 #include "ch04_multibody_stepping/sleep.hpp"
 #include "ch04_multibody_stepping/world.hpp"
+#include "common/stopwatch.hpp"
 
 namespace fc::world {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-std::int64_t ns_since(Clock::time_point start) {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - start).count();
-}
 
 // What an impact must not change, and by how much round-off could have: of the bodies of one island.
 struct Totals {
@@ -176,14 +170,22 @@ class Stepper {
     for (lcp::Contact& contact : local.contacts)
       if (-lcp::contact_velocity(local.states, contact) <= world_.rest_speed) contact.restitution = 0;
   }
-  // Chapter 5: bodies that were stopped against gravity do not fall for the rest of the frame.
+  // Chapter 5: a body that was stopped against gravity, by something that does not fall itself, does not fall
+  // for the rest of the frame. From the ground up, until nothing more is supported.
   void support(const Local& local, const std::vector<lcp::Impulse>& impulses) {
-    for (const lcp::Impulse& impulse : impulses) {
-      const lcp::Contact& contact = local.contacts[static_cast<std::size_t>(impulse.contact)];
-      if (contact.restitution > 0) continue;
-      const double pull = contact.normal.dot(*world_.effects.gravity);
-      const int resting = local.numbers[static_cast<std::size_t>(pull > 0 ? contact.body_a : contact.body_b)];
-      world_.bodies[resting].supported = true;
+    const Vec3& gravity = *world_.effects.gravity;
+    for (bool more = true; more;) {
+      more = false;
+      for (const lcp::Impulse& impulse : impulses) {
+        const lcp::Contact& contact = local.contacts[static_cast<std::size_t>(impulse.contact)];
+        const double pull = contact.normal.dot(gravity);
+        if (contact.restitution > 0 || !bears_weight(contact.normal, gravity)) continue;
+        const int upper = local.numbers[static_cast<std::size_t>(pull > 0 ? contact.body_a : contact.body_b)],
+                  lower = local.numbers[static_cast<std::size_t>(pull > 0 ? contact.body_b : contact.body_a)];
+        const bool falls = world_.yields(lower) && !world_.bodies[lower].supported;
+        if (falls || world_.bodies[upper].supported || !world_.yields(upper)) continue;
+        world_.bodies[upper].supported = more = true;
+      }
     }
   }
 
@@ -198,7 +200,7 @@ class Stepper {
 };
 
 void Stepper::solve(const Island& island, double now) {
-  const Clock::time_point start = Clock::now();
+  const Stopwatch watch;
   Local local(world_, island, now);
   if (world_.rest_speed > 0) settle(local);
   const Totals before(local.states);
@@ -220,7 +222,7 @@ void Stepper::solve(const Island& island, double now) {
     report_.momentum_error =
         std::max({report_.momentum_error, (after.linear - before.linear).norm() / before.linear_size,
                   (after.angular - before.angular).norm() / before.angular_size});
-  report_.lcp_ns += ns_since(start);
+  report_.lcp_ns += watch.ns();
   solved_ = island.gaps;
   solved_at_ = now;
 
@@ -253,7 +255,7 @@ void Stepper::solve(const Island& island, double now) {
 StepReport step(World& world, double dt, const Listeners& listeners) {
   if (!(dt > 0 && std::isfinite(dt)))
     throw std::invalid_argument(fmt::format("step: dt is {} s; it must be finite and > 0", dt));
-  const Clock::time_point start = Clock::now();
+  const Stopwatch watch;
   StepReport report;
   report.min_gap = std::numeric_limits<double>::infinity();
 
@@ -297,7 +299,7 @@ StepReport step(World& world, double dt, const Listeners& listeners) {
     b.was_held = b.held;
     b.held = false;
   }
-  report.step_ns = ns_since(start);
+  report.step_ns = watch.ns();
   report.ccd_ns = report.step_ns - report.lcp_ns;
   return report;
 }

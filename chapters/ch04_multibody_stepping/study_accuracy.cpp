@@ -1,23 +1,17 @@
 // What accuracy costs: a bouncing ball, event by event and by Moreau's time stepping; and a few tumbling
 // blocks against their own most exact run.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "ch04_multibody_stepping/study_parts.hpp"
 #include "common/program.hpp"
+#include "common/stopwatch.hpp"
 #include "common/table.hpp"
 
 namespace fc::world {
 namespace {
 
 constexpr double kGravity = 9.81, kHeight = 2, kRestitution = 0.8, kEnd = 2.5;  // m/s^2, m, 1, s
-
-using Clock = std::chrono::steady_clock;
-
-double since_ns(Clock::time_point start) {
-  return std::chrono::duration<double, std::nano>(Clock::now() - start).count();
-}
 
 double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
@@ -84,9 +78,9 @@ void study_bounces(const StudyOptions& options) {
     std::int64_t queries = 0;
     for (int repeat = 0; repeat < options.repeats; ++repeat) {
       World world = build_world(bouncing_ball(tolerance));
-      const auto start = Clock::now();
+      const Stopwatch watch;
       queries = step(world, kEnd).queries;
-      times.push_back(since_ns(start));
+      times.push_back(static_cast<double>(watch.ns()));
       height = world.bodies[0].state.position.z() - 0.5;
     }
     table.row({std::string("events"), tolerance, std::abs(height - exact), queries, median(times)});
@@ -97,9 +91,9 @@ void study_bounces(const StudyOptions& options) {
     double height = 0;
     std::int64_t steps = 0;
     for (int repeat = 0; repeat < options.repeats; ++repeat) {
-      const auto start = Clock::now();
+      const Stopwatch watch;
       height = moreau_height(dt, steps);
-      times.push_back(since_ns(start));
+      times.push_back(static_cast<double>(watch.ns()));
     }
     table.row({std::string("moreau"), dt, std::abs(height - exact), steps, median(times)});
   }

@@ -93,6 +93,12 @@ Vec3 half_extent(const Shape& shape) {
   return half + Vec3::Constant(shape.radius);
 }
 
+// Where on its free rotation a body is after `elapsed` seconds more, and how fast it then goes through it.
+void turn_on(double spin_drag, double elapsed, double& start, double& rate) {
+  start += rate * ca::decayed_time(spin_drag, elapsed);
+  if (spin_drag > 0) rate *= std::exp(-spin_drag * elapsed);
+}
+
 }  // namespace
 
 ca::Motion World::motion(int body, double time) const {
@@ -102,22 +108,22 @@ ca::Motion World::motion(int body, double time) const {
   ca::Motion motion(state);
   if (b.held || b.asleep || state.is_static()) return motion;
   add_effects(body, motion);
-  if (b.free) {
-    motion.free_start += motion.free_rate * ca::decayed_time(motion.spin_drag, time - b.time);
-    if (motion.spin_drag > 0) motion.free_rate *= std::exp(-motion.spin_drag * (time - b.time));
-  }
+  if (b.free) turn_on(motion.spin_drag, time - b.time, motion.free_start, motion.free_rate);
   return motion;
 }
 
 // ANCHOR: motion
+void World::add_forces(const Body& body, ca::Motion& motion) const {
+  if (effects.gravity && !body.supported) motion.acceleration = *effects.gravity;
+  if (!effects.drag) return;
+  motion.drag = effects.drag->linear;
+  motion.spin_drag = effects.drag->angular;
+}
+
 // What the scene's effects make of a body's motion from the time on at which its state stands.
 void World::add_effects(int body, ca::Motion& motion) const {
   const Body& b = bodies[body];
-  if (effects.gravity && !b.supported) motion.acceleration = *effects.gravity;
-  if (effects.drag) {
-    motion.drag = effects.drag->linear;
-    motion.spin_drag = effects.drag->angular;
-  }
+  add_forces(b, motion);
   if (b.free) {
     motion.free = b.free;
     motion.free_start = b.free_start;
@@ -161,11 +167,8 @@ void World::carry(int body, double time, double name) {
   Body& b = bodies[body];
   const double elapsed = time - b.time;
   b.state = state_at(body, time);
-  if (b.free && !b.held) {
-    const double decay = effects.drag ? effects.drag->angular : 0;
-    b.free_start += b.free_rate * ca::decayed_time(decay, elapsed);
-    if (decay > 0) b.free_rate *= std::exp(-decay * elapsed);
-  }
+  if (b.free && !b.held)
+    turn_on(effects.drag ? effects.drag->angular : 0, elapsed, b.free_start, b.free_rate);
   b.time = name;
 }
 
@@ -175,10 +178,7 @@ ca::Motion World::course(int body, double time) const {
   path.position = b.state.position;
   if (stays(body)) return path;
   path.velocity = b.state.velocity;
-  if (yields(body)) {
-    if (effects.gravity && !b.supported) path.acceleration = *effects.gravity;
-    if (effects.drag) path.drag = effects.drag->linear;
-  }
+  if (yields(body)) add_forces(b, path);
   const double elapsed = time - b.time;
   const Vec3 position = path.position_at(elapsed), velocity = path.velocity_at(elapsed);
   path.position = position;
@@ -225,7 +225,6 @@ World build_world(const Scene& scene) {
   world.shapes = build_shapes(scene, true);
   for (const Shape& shape : world.shapes) world.models.push_back(hulls::build_model(shape));
   world.effects = effects_of(scene);
-  world.tolerance = scene.ccd.tolerance;
   world.impact.solver = solver_of(scene.solver);
   world.max_pairs = scene.ccd.max_iterations;
   for (const Shape& shape : world.shapes) {

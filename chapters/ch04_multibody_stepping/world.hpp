@@ -1,6 +1,7 @@
 // Many bodies in one world: the data that a step works on.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -93,6 +94,9 @@ struct World {
   bool carries(int body) const { return !yields(body) && !stays(body); }
   // Whether an impulse can move the body.
   bool yields(int body) const { return !bodies[body].state.is_static(); }
+  // What the effects make of a body's motion from the time on at which its state stands: forces alone, or
+  // all.
+  void add_forces(const Body& body, ca::Motion& motion) const;
   void add_effects(int body, ca::Motion& motion) const;
   // The centre's place and velocity at a time in the frame, and its acceleration: all that matters of a ball.
   ca::Motion course(int body, double time) const;
@@ -100,6 +104,12 @@ struct World {
   // that.
   Bounds swept_bounds(int body, double from, double to) const;
 };
+
+// Whether a contact with this normal can carry what gravity pulls at, or is a wall (chapter 5).
+inline bool bears_weight(const Vec3& normal, const Vec3& gravity) {
+  constexpr double kSteepest = 0.05;  // the cosine between the two
+  return std::abs(normal.dot(gravity)) >= kSteepest * gravity.norm();
+}
 
 // Throws InputError: shapes (see build_shapes), and two bodies that overlap by more than the tolerance.
 World build_world(const Scene& scene);

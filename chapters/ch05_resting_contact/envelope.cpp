@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "ch02_hull_hierarchy/features.hpp"
+#include "ch04_multibody_stepping/contact_search.hpp"
+#include "ch04_multibody_stepping/sensors.hpp"
 
 namespace fc::resting {
 namespace {
@@ -15,10 +16,6 @@ constexpr double kLeastTolerances = 100;
 
 bool same(const Pose& x, const Pose& y) {
   return x.position == y.position && x.rotation == y.rotation;
-}
-
-Vec3 lower_corner(const world::Bounds& box, double by) {
-  return box.low - Vec3::Constant(by);
 }
 
 }  // namespace
@@ -51,15 +48,15 @@ void Shell::find(const world::World& world) {
   boxes.reserve(world.bodies.size());
   for (int body = 0; body < static_cast<int>(world.bodies.size()); ++body) {
     world::Bounds box = world.swept_bounds(body, 0, 0);
-    box.low = lower_corner(box, 0.5 * envelope_);
+    box.low -= Vec3::Constant(0.5 * envelope_);
     box.high += Vec3::Constant(0.5 * envelope_);
     boxes.push_back(box);
   }
   tree_.build(boxes);
   std::vector<std::pair<int, int>> pairs;
   tree_.overlapping_pairs([&](int a, int b) {
-    const bool sensor = world.bodies[a].sensor || world.bodies[b].sensor;
-    if (!sensor && (world.yields(a) || world.yields(b))) pairs.emplace_back(std::min(a, b), std::max(a, b));
+    if (!world::is_sensor_pair(world, a, b) && (world.yields(a) || world.yields(b)))
+      pairs.emplace_back(std::min(a, b), std::max(a, b));
   });
   std::sort(pairs.begin(), pairs.end());
 
@@ -109,17 +106,12 @@ void Shell::add(const world::World& world, int a, int b, const Known* known,
     ++searched_;
     const ca::Motion motion_a(body_a), motion_b(body_b);
     const ca::PairPose pose(motion_a, motion_b, 0);
-    const hulls::Model &model_a = world.model_of(a), &model_b = world.model_of(b);
-    const bool convex = world.convex(a) && world.convex(b);
     for (const ca::FeaturePair& f :
-         hulls::contact_features(model_a, model_b, pose, body_a.position, envelope_, &now.gap)) {
-      // At an edge that both share, features are near each other in directions in which the bodies are not
-      // apart. Of convex bodies the normal must part them, up to the shell.
-      if (convex && ca::support_gap(model_a.whole(), model_b.whole(), pose, f.normal) < -envelope_) continue;
+         world::near_features(world, a, b, pose, body_a.position, envelope_, &now.gap)) {
       ShellContact contact;
       contact.contact = {
           a, b, 0.5 * (f.point_a + f.point_b), f.normal, f.gap, 0, world.turns(a), world.turns(b)};
-      // The same contact as in the frame before is the nearest one of this pair, if that is near.
+      // As a guess: what the nearest contact of this pair took in the frame before.
       double nearest = std::numeric_limits<double>::infinity();
       for (int i = 0; known != nullptr && i < known->count; ++i) {
         const ShellContact& old = before[static_cast<std::size_t>(known->first + i)];

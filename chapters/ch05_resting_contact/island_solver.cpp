@@ -4,23 +4,9 @@
 #include <cmath>
 
 #include "ch03_impulse_lcp/delassus.hpp"
+#include "ch03_impulse_lcp/impact.hpp"
 
 namespace fc::resting {
-namespace {
-
-void push(std::span<RigidBody> bodies, const lcp::Contact& contact, double impulse) {
-  for (const bool on_b : {false, true}) {
-    RigidBody& body = bodies[static_cast<std::size_t>(on_b ? contact.body_b : contact.body_a)];
-    if (body.is_static()) continue;
-    const Vec3 along = (on_b ? impulse : -impulse) * contact.normal;
-    body.velocity += body.inverse_mass * along;
-    if (on_b ? contact.turns_b : contact.turns_a)
-      body.spin += body.inverse_inertia_world() * (contact.point - body.position).cross(along);
-  }
-}
-
-}  // namespace
-
 IslandResult IslandSolver::solve(std::span<RigidBody> bodies, std::span<const lcp::Contact> contacts,
                                  std::span<const double> allowed, std::span<double> z,
                                  const IslandOptions& options) {
@@ -43,7 +29,7 @@ IslandResult IslandSolver::solve_dense(std::span<RigidBody> bodies, std::span<co
   if (result.status != lcp::Status::solved) return {};
   for (Eigen::Index i = 0; i < n; ++i) {
     z[static_cast<std::size_t>(i)] = result.z[i];
-    if (result.z[i] > 0) push(bodies, contacts[static_cast<std::size_t>(i)], result.z[i]);
+    if (result.z[i] > 0) lcp::apply_impulse(bodies, contacts[static_cast<std::size_t>(i)], result.z[i]);
   }
   return {true, result.residual, 0};
 }
@@ -74,7 +60,7 @@ IslandResult IslandSolver::solve_sparse(std::span<RigidBody> bodies, std::span<c
     }
     rows_.push_back(row);
   }
-  std::vector<RigidBody> before(bodies.begin(), bodies.end());
+  const std::vector<RigidBody> before(bodies.begin(), bodies.end());
   const auto speed = [&](const Row& row) {
     double w = row.fixed;
     if (row.a >= 0) {
@@ -104,20 +90,28 @@ IslandResult IslandSolver::solve_sparse(std::span<RigidBody> bodies, std::span<c
   for (std::size_t i = 0; i < rows_.size(); ++i)
     if (z[i] > 0) change(rows_[i], z[i]);
 
-  IslandResult result;
-  for (; result.sweeps < options.most_sweeps; ++result.sweeps) {
+  // Of all rows at once, with the velocities as they are.
+  const auto residual = [&] {
     double worst = 0;
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+      worst = std::max(worst, std::abs(std::min(rows_[i].diagonal * z[i], speed(rows_[i]))));
+    return scale > 0 ? worst / scale : 0;
+  };
+  IslandResult result;
+  for (double changed = 1; result.sweeps < options.most_sweeps && changed > options.residual;) {
+    ++result.sweeps;
+    changed = 0;
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       const Row& row = rows_[i];
-      const double w = speed(row), next = std::max(0.0, z[i] - w / row.diagonal);
-      worst = std::max(worst, std::abs(std::min(row.diagonal * z[i], w)));
-      if (next == z[i]) continue;
-      change(row, next - z[i]);
+      const double next = std::max(0.0, z[i] - speed(row) / row.diagonal), by = next - z[i];
+      if (by == 0) continue;
+      change(row, by);
       z[i] = next;
+      changed = std::max(changed, row.diagonal * std::abs(by));
     }
-    result.residual = scale > 0 ? worst / scale : 0;
-    if (result.residual <= options.residual) break;
+    if (scale > 0) changed /= scale;
   }
+  result.residual = residual();
   result.solved = result.residual <= options.accepted;
   if (!result.solved) std::copy(before.begin(), before.end(), bodies.begin());
   return result;

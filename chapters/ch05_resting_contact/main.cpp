@@ -22,15 +22,12 @@ std::vector<Effect> explain(const Scene& scene) {
 }
 
 int run(const Scene& scene, const RunContext& context, Summary& summary) {
-  if (!scene.envelope)  // chapter 4, to the byte
-    return world::run_scene(scene, context, summary,
-                            [](world::World& world, double dt, const world::Listeners& listeners) {
-                              return world::step(world, dt, listeners);
-                            });
+  if (!scene.envelope)
+    return world::run_scene(scene, context, summary, world::step);  // chapter 4, to the byte
   std::unique_ptr<resting::Resting> resting;
   std::int64_t contacts = 0, sweeps = 0, searched = 0;
   int largest = 0;
-  double energy = 0, steered = 0, residual = 0;
+  double energy = 0, steered = 0;
   const int code = world::run_scene(scene, context, summary,
                                     [&](world::World& world, double dt, const world::Listeners& listeners) {
                                       if (!resting)
@@ -40,15 +37,13 @@ int run(const Scene& scene, const RunContext& context, Summary& summary) {
                                       sweeps += report.sweeps;
                                       searched += report.searched;
                                       largest = std::max(largest, report.largest_island);
-                                      energy += report.steering_energy;
-                                      steered = std::max(steered, report.steered);
-                                      residual = std::max(residual, report.shell_residual);
+                                      energy += report.steering.energy;
+                                      steered = std::max(steered, report.steering.way);
                                       return report.step;
                                     });
   if (resting) summary.add("envelope", resting->envelope(), "m");
   summary.add("contacts in the envelope", contacts);
   summary.add("largest island", std::int64_t{largest}, "rows");
-  summary.add("worst residual of resting contacts", residual);
   summary.add("largest correction of a position in a frame", steered, "m");
   summary.add("potential energy added by corrections", energy, "J");
   summary.counter("envelope (pairs whose contacts were searched)", searched, 0);
@@ -64,10 +59,10 @@ int main(int argc, char** argv) {
   chapter.name = "ch05_resting_contact";
   chapter.purpose =
       "Moves rigid bodies that collide, rest, slide and stack, without friction. With the key `envelope`, "
-      "contacts "
-      "within that distance last from frame to frame; without it, everything is as in chapter 4. First form: "
-      "large "
-      "islands are solved by Gauss-Seidel to a residual of 1e-8, and cost more than in other engines.";
+      "contacts within that distance last from frame to frame; without it, everything is as in chapter 4. "
+      "First "
+      "form: large islands are solved by Gauss-Seidel to a residual of 1e-8, and cost more than in other "
+      "engines.";
   chapter.example = "build/bin/ch05_resting_contact chapters/ch05_resting_contact/scenes/stack.yaml";
   chapter.explain = explain;
   chapter.run = run;

@@ -4,27 +4,26 @@
 
 #include "ch05_resting_contact/envelope.hpp"
 #include "ch05_resting_contact/island_solver.hpp"
+#include "ch05_resting_contact/islands.hpp"
+#include "ch05_resting_contact/steering.hpp"
 
 namespace fc::resting {
 
 // What a frame did beyond chapter 4's report.
 struct RestReport {
-  world::StepReport step;
-  int shell_contacts = 0, shell_impulses = 0;
-  std::int64_t searched = 0;   // pairs whose contacts were searched anew
-  int largest_island = 0;      // rows
-  int sweeps = 0;              // of Gauss-Seidel, all islands
-  double shell_residual = 0;   // the worst
-  double steered = 0;          // m, the largest way that a body was moved
-  double steering_energy = 0;  // J, potential energy that this added
-  std::int64_t solve_ns = 0;   // of the islands' rows
-  double smallest_gap = 0;     // m, in the shell, at the frame's start; infinite if it is empty
+  world::StepReport step;  // all of the frame, resting contacts included
+  int shell_contacts = 0;
+  std::int64_t searched = 0;  // pairs whose contacts were searched anew
+  int largest_island = 0;     // rows
+  int sweeps = 0;             // of Gauss-Seidel, all islands
+  double smallest_gap = 0;    // m, in the shell, at the frame's start; infinite if it is empty
+  Steering steering;
 };
 
 // Keeps what lasts from frame to frame.
 class Resting {
  public:
-  // Sets the world's rest_speed. Throws as envelope_of().
+  // Sets the world's rest_speed and touch. Throws as envelope_of().
   Resting(const Scene& scene, world::World& world, double dt);
 
   // One frame of dt seconds. Guarantees of chapter 4's step hold: no gap ever becomes zero. A pair within the
@@ -37,11 +36,12 @@ class Resting {
 
  private:
   void solve_islands(world::World& world, const world::Listeners& listeners, RestReport& report);
-  void steer(world::World& world, RestReport& report);
+  void solve(world::World& world, const std::vector<int>& members, Island& island,
+             const world::Listeners& listeners, RestReport& report);
+  void add(const world::StepReport& events, RestReport& report) const;
 
   Shell shell_;
   IslandSolver solver_;
-  IslandOptions options_;
   double dt_;
 };
 

@@ -49,7 +49,6 @@ class OdeEngine : public Engine {
       restitution_.push_back(shape.restitution);
       geoms_.push_back(geom_of(spec.shape));
       const dGeomID geom = geoms_.back();
-      dGeomSetData(geom, &restitution_);  // overwritten below, when the vector no longer moves
       const Quat& o = start.orientation;
       const dQuaternion q = {o.w(), o.x(), o.y(), o.z()};
       dBodyID body = nullptr;
@@ -73,6 +72,7 @@ class OdeEngine : public Engine {
       bodies_.push_back(body);
       starts_.push_back(start);
     }
+    // Only now, when the vector no longer moves.
     for (std::size_t i = 0; i < geoms_.size(); ++i) dGeomSetData(geoms_[i], &restitution_[i]);
   }
   ~OdeEngine() override {

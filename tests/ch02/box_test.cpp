@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "ch02_hull_hierarchy/box_steps.hpp"
+#include "tests/support/free_bodies.hpp"
 #include "tests/support/random_engine.hpp"
 #include "tests/support/test_models.hpp"
 
@@ -100,8 +101,9 @@ RC_GTEST_PROP(BoxSteps, TheGapKeepsItsTarget, ()) {
                      mesh_b = scaled(random_mesh(random), size * magnitude(random, 0.01, 1));
   const BoxTree a = build_box_tree(build_feature_mesh(mesh_a, true), false),
                 b = build_box_tree(build_feature_mesh(mesh_b, true), false);
-  const ca::Motion ma = motion(some(size), rotation(random), some(speed), some(10), some(speed));
-  const ca::Motion mb = motion(some(3 * size), rotation(random), some(speed), some(10), some(speed));
+  ca::Motion ma = motion(some(size), rotation(random), some(speed), some(10), some(speed));
+  ca::Motion mb = motion(some(3 * size), rotation(random), some(speed), some(10), some(speed));
+  if (integer(random, 0, 1) == 1) add_random_effects(random, ma, mb);
   const double reach_a = ca::reach_of(mesh_a.vertices), reach_b = ca::reach_of(mesh_b.vertices);
   const double t = integer(random, 0, 1) * uniform(random, 0, 0.5), end = t + uniform(random, 0.1, 1);
   const ca::PairPose pose(ma, mb, t);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/free_bodies.hpp"
 #include "tests/support/random_engine.hpp"
 #include "tests/support/random_shapes.hpp"
 
@@ -66,6 +67,7 @@ struct Nodes {
     };
     ma = motion(some(3), rotation(random), some(3), some(10), some(10));
     mb = motion(some(3), rotation(random), some(3), some(10), some(10));
+    if (integer(random, 0, 1) == 1) add_random_effects(random, ma, mb);
   }
 };
 

@@ -237,6 +237,24 @@ TEST(Hard, OneBodyAndNone) {
   EXPECT_EQ(events.lost_time(), 0);
 }
 
+// A tolerance that rounding could not keep is raised to one that it can, and the world still works.
+TEST(Hard, AToleranceBelowRoundingIsRaised) {
+  const std::string scene =
+      "step: {dt: 0.1, duration: 1}\nrestitution: 1\nshapes:\n  brick: {box: {size: [1, 1, 1]}, mass: "
+      "1}\nbodies:\n"
+      "  - {shape: brick, velocity: [1, 0, 0], spin: [0, 0, 1]}\n  - {shape: brick, position: [2.5, 0.1, "
+      "0.2]}\n";
+  auto world = make_world("ccd: {tolerance: 1.0e-15}\n" + scene), usual = make_world(scene);
+  EXPECT_GT(world.tolerance, 1e-14);
+  EXPECT_LT(world.tolerance, 1e-9);
+  EXPECT_EQ(usual.tolerance, 1e-6);
+  const Events a = run_world(world, 0.1, 30), b = run_world(usual, 0.1, 30);
+  ASSERT_EQ(a.all.size(), b.all.size());
+  ASSERT_GT(a.all.size(), 0U);
+  EXPECT_NEAR(a.all[0].t, b.all[0].t, 1e-5);
+  expect_sound(a);
+}
+
 // Bullets at the edges of a wall, and past them: those that meet it are sent back, the others fly on.
 TEST(Bullets, AtTheEdgesOfAWall) {
   std::string text =

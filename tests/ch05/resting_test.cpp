@@ -34,7 +34,7 @@ struct Simulation {
     for (int frame = 0; frame < frames; ++frame) {
       last = resting.step(world, listeners);
       lost += last.step.lost_time;
-      steered += last.steering_energy;
+      steered += last.steering.energy;
       smallest_gap = std::min(smallest_gap, last.smallest_gap);
       residual = std::max(residual, last.step.lcp_residual);
     }
@@ -186,6 +186,77 @@ TEST(Program, NothingOverlapsInChapterFoursScenes) {
         << scene;
     expect_no_overlap(file, set, 5, folder);
   }
+}
+
+// What meets in the air falls on: nothing carries it. And a wall carries nothing.
+TEST(Support, NeedsSomethingThatDoesNotFall) {
+  const std::string shapes =
+      "step: {dt: 0.01, duration: 1}\ngravity: [0, 0, -10]\nenvelope: 5.0e-4\nrestitution: 0.5\nshapes:\n"
+      "  ball: {sphere: {radius: 0.5}, mass: 2}\n  wall: {box: {size: [1, 40, 400]}}\nbodies:\n";
+  // The upper one is 1 mm above and comes down 10 mm/s faster.
+  Simulation air(
+      shapes + "  - {shape: ball}\n  - {shape: ball, position: [0, 0, 1.001], velocity: [0, 0, -0.01]}\n",
+      0.1);
+  air.run(0.5);
+  const double centre = 0.5 * (air.body(0).position.z() + air.body(1).position.z());
+  EXPECT_NEAR(centre, 0.5005 - 0.005 * 0.5 - 0.5 * 10 * 0.25, 1e-9) << "m: both fall freely";
+  Simulation wall(shapes +
+                      "  - {shape: ball, velocity: [0.004, 0, 0]}\n  - {shape: wall, static: true, position: "
+                      "[1.0011, 0, 0]}\n",
+                  0.1);
+  wall.run(1);
+  EXPECT_NEAR(wall.body(0).position.z(), -5, 1e-9) << "m: beside a wall it falls freely";
+  EXPECT_LE(wall.body(0).position.x(), 0.0011) << "m: and does not go into it";
+}
+
+// Large islands are solved in another way than small ones: to the same velocities.
+TEST(IslandSolver, SparseAndDenseAgree) {
+  const auto solve = [](int most_dense_rows) {
+    std::vector<fc::RigidBody> bodies(9);
+    std::vector<fc::lcp::Contact> contacts;
+    for (int i = 0; i < 9; ++i) {
+      bodies[i].position = Vec3(0, 0, i - 0.5);
+      if (i > 0) bodies[i].set_mass(fc::box_mass(Vec3(1, 1, 1), 1 + i % 3));
+      bodies[i].velocity = i == 0 ? Vec3(0, 0, 0.1) : Vec3(0.2, 0, -0.3 * i);  // the floor rises: kinematic
+      for (int corner = 0; i > 0 && corner < 4; ++corner)
+        contacts.push_back({i - 1, i, Vec3(corner % 2 - 0.5, corner / 2 - 0.5, i - 1), Vec3::UnitZ(), 1e-4});
+    }
+    std::vector<double> allowed(contacts.size(), 0.01), z(contacts.size(), 0);
+    allowed[5] = -0.02;  // one must part
+    fc::resting::IslandOptions options;
+    options.most_dense_rows = most_dense_rows;
+    options.residual = 1e-12;
+    options.most_sweeps = 100'000;
+    fc::resting::IslandSolver solver;
+    const auto result = solver.solve(bodies, contacts, allowed, z, options);
+    EXPECT_TRUE(result.solved);
+    EXPECT_EQ(result.sweeps > 0, most_dense_rows == 0);
+    EXPECT_LE(result.residual, 1e-10);
+    for (std::size_t i = 0; i < contacts.size(); ++i)
+      EXPECT_GE(fc::lcp::contact_velocity(bodies, contacts[i]) + allowed[i], -1e-9) << i;
+    return bodies;
+  };
+  const auto dense = solve(400), sparse = solve(0);
+  for (std::size_t i = 0; i < dense.size(); ++i) {
+    EXPECT_LE((dense[i].velocity - sparse[i].velocity).norm(), 1e-8) << i;
+    EXPECT_LE((dense[i].spin - sparse[i].spin).norm(), 1e-8) << i;
+  }
+}
+
+// What was not solved is not called so, and nothing has moved.
+TEST(IslandSolver, SaysWhenItGivesUp) {
+  std::vector<fc::RigidBody> bodies(2);
+  bodies[1].position = Vec3(0, 0, 0.5);
+  bodies[1].set_mass(fc::box_mass(Vec3(1, 1, 1), 1));
+  bodies[1].velocity = Vec3(0, 0, -1);
+  // Pressed from both sides by what does not give way: no velocity is right.
+  const std::vector<fc::lcp::Contact> contacts = {{0, 1, Vec3::Zero(), Vec3::UnitZ()},
+                                                  {0, 1, Vec3(0, 0, 1), -Vec3::UnitZ()}};
+  const std::vector<double> allowed = {-1, -1};
+  std::vector<double> z(2, 0);
+  fc::resting::IslandSolver solver;
+  EXPECT_FALSE(solver.solve(bodies, contacts, allowed, z, {}).solved);
+  EXPECT_EQ(bodies[1].velocity, Vec3(0, 0, -1));
 }
 
 // Without the key everything is chapter 4's, to the byte; with it, chapter 4's scenes lose no time any more.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "ch01_convex_advancement/motion.hpp"
 #include "ch01_convex_advancement/torque_free.hpp"
 #include "tests/support/random_shapes.hpp"
 
@@ -56,6 +57,25 @@ inline FreeBody random_free_body(Random& random) {
   if (near < 3) direction = (magnitude(random, 1e-4, 1e-1) * direction + Vec3::Unit(near)).normalized();
   body.spin = magnitude(random, 1e-3, 1e3) * (body.rotation * direction);
   return body;
+}
+
+// Lets one or both of a pair turn freely, and feel drag, or neither. Drag is the same for both, or one of
+// them flies straight on.
+inline void add_random_effects(Random& random, ca::Motion& a, ca::Motion& b) {
+  const auto mass = [&] { return uniform(random, 0.05, 1); };
+  for (ca::Motion* m : {&a, &b}) {
+    if (integer(random, 0, 1) == 0 || m->spin_rate == 0) continue;
+    m->turn_freely(ca::PrincipalInertia(Mat3(moments_of({mass(), mass(), mass()}).asDiagonal())));
+  }
+  if (integer(random, 0, 1) == 0) return;
+  a.drag = magnitude(random, 1e-3, 10);
+  a.spin_drag = magnitude(random, 1e-3, 10);
+  if (integer(random, 0, 1) == 0) {
+    b.acceleration = Vec3::Zero();
+    return;
+  }
+  b.drag = a.drag;
+  b.spin_drag = a.spin_drag;
 }
 
 }  // namespace fc::test

@@ -130,14 +130,25 @@ struct LongPose {
   Vec<Long> operator*(const Vec3& x) const { return rotation * x.cast<Long>() + position; }
 };
 inline LongPose long_pose(const ca::Motion& m, Long t, const Vec3& origin) {
+  // With drag: what is left of the time t, and of t^2/2; as series where the differences would cancel.
+  const auto left = [&](Long k) { return k > 0 ? -std::expm1(-k * t) / k : t; };
+  const auto square = [&](Long k) {
+    if (k * t > 0.5L) return (t - left(k)) / k;
+    Long term = 0.5L, sum = 0.5L;
+    for (int n = 3; n <= 30; ++n) sum += term *= -k * t / n;
+    return t * t * sum;
+  };
   LongPose pose;
-  pose.position = m.position.cast<Long>() - origin.cast<Long>() + t * m.velocity.cast<Long>() +
-                  Long(0.5) * t * t * m.acceleration.cast<Long>();
+  pose.position = m.position.cast<Long>() - origin.cast<Long>() + left(m.drag) * m.velocity.cast<Long>() +
+                  square(m.drag) * m.acceleration.cast<Long>();
   const Vec<Long> spin = m.spin.cast<Long>();
   const Long rate = spin.norm();
   pose.rotation = m.rotation.cast<Long>();
-  if (rate > 0)
-    pose.rotation = Eigen::AngleAxis<Long>(rate * t, spin / rate).toRotationMatrix() * pose.rotation;
+  if (m.free)  // chapter 1's tests hold this to an integration
+    pose.rotation = m.free->rotation_at(m.free_time(static_cast<double>(t))).cast<Long>();
+  else if (rate > 0)
+    pose.rotation =
+        Eigen::AngleAxis<Long>(rate * left(m.spin_drag), spin / rate).toRotationMatrix() * pose.rotation;
   return pose;
 }
 
