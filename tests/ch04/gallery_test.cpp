@@ -55,7 +55,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Gallery, testing::ValuesIn(gallery()),
 TEST(GalleryCheck, FindsAnOverlap) {
   const Rounded ball = rounded_ball(0.5), rod = rounded_rod(0.2, 1), block = rounded_block({1, 1, 1});
   const Rounded hull = rounded_hull({{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}});
-  EXPECT_EQ(hull.core.mesh.triangles.size(), 8U);
+  EXPECT_EQ(hull.core.triangles.size(), 8U);
   const auto at = [](double x, double y, double z) { return State{{x, y, z}, {1, 0, 0, 0}, {}, {}, {}}; };
   EXPECT_TRUE(apart(ball, at(0, 0, 0), ball, at(1, 0, 0), 1e-13));
   EXPECT_FALSE(apart(ball, at(0, 0, 0), ball, at(1 - 1e-9, 0, 0), 1e-13));
@@ -67,6 +67,15 @@ TEST(GalleryCheck, FindsAnOverlap) {
   EXPECT_FALSE(apart(rod, at(0, 0, 0.7), rounded_block({2, 2, 0.01}), at(0, 0, 0.6), 0)) << "through a plate";
   EXPECT_TRUE(apart(hull, at(0, 0, 0), block, at(1.5 + 1e-9, 0, 0), 0));
   EXPECT_FALSE(apart(hull, at(0, 0, 0), block, at(1.5 - 1e-9, 0, 0), 0));
+  // A mesh with many triangles, whose centre of mass is not its frame's origin, against a block.
+  Mesh bumpy = bumpy_sphere(46, 44, 0.2);
+  for (Vec& x : bumpy.vertices) x = x + Vec{3, 0, 0};
+  const Rounded mesh = rounded_mesh(bumpy);
+  ASSERT_TRUE(mesh.tree);
+  EXPECT_FALSE(apart(mesh, at(0, 0, 0), block, at(3, 0, 0), 0)) << "inside";
+  EXPECT_FALSE(apart(mesh, at(0, 0, 0), block, at(4.2, 0, 0), 0)) << "across the surface";
+  EXPECT_TRUE(apart(mesh, at(0, 0, 0), block, at(0, 0, 0), 0)) << "where the mesh is not";
+  EXPECT_FALSE(apart(mesh, at(0, 0, 0), mesh, at(0.5, 0, 0), 0));
   EXPECT_FALSE(apart(rounded_hull({{.1, 0, 0}, {0, .1, 0}, {0, 0, .1}, {0, 0, 0}}), at(0, 0, 0), block,
                      at(0, 0, 0), 0));
 }

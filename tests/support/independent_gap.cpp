@@ -10,10 +10,10 @@ constexpr int kManyTriangles = 3000;  // above: a tree, and crossing or not in p
 
 Rounded from(const Mesh& mesh, double radius, bool closed) {
   Rounded shape;
-  shape.core.mesh = mesh;
+  shape.core = mesh;
   shape.radius = radius;
   shape.closed = closed;
-  for (const Vec& x : mesh.vertices) shape.core.reach = std::max(shape.core.reach, norm(x));
+  for (const Vec& x : mesh.vertices) shape.reach = std::max(shape.reach, norm(x));
   return shape;
 }
 
@@ -62,23 +62,15 @@ bool is_point(const std::array<Vec, 3>& t) {
 std::vector<std::array<Vec, 3>> world_triangles(const Rounded& shape, const State& state) {
   const Matrix turn = rotation(state.orientation);
   std::vector<std::array<Vec, 3>> triangles;
-  for (const auto& t : shape.core.mesh.triangles)
-    triangles.push_back({placed(state, turn, shape.core.mesh.vertices[t[0]]),
-                         placed(state, turn, shape.core.mesh.vertices[t[1]]),
-                         placed(state, turn, shape.core.mesh.vertices[t[2]])});
+  for (const auto& t : shape.core.triangles)
+    triangles.push_back({placed(state, turn, shape.core.vertices[t[0]]),
+                         placed(state, turn, shape.core.vertices[t[1]]),
+                         placed(state, turn, shape.core.vertices[t[2]])});
   return triangles;
 }
 
-// Whether a point is inside the triangles, by how often they wind around it.
 bool inside(const std::vector<std::array<Vec, 3>>& triangles, const Vec& point) {
-  double sum = 0;
-  for (std::array<Vec, 3> t : triangles) {
-    for (Vec& x : t) x = x - point;
-    const double a = norm(t[0]), b = norm(t[1]), c = norm(t[2]);
-    sum += 2 * std::atan2(dot(t[0], cross(t[1], t[2])),
-                          a * b * c + dot(t[0], t[1]) * c + dot(t[1], t[2]) * a + dot(t[2], t[0]) * b);
-  }
-  return std::abs(sum) > 2 * std::acos(-1.0);
+  return std::abs(winding(triangles, point)) > 0.5;
 }
 
 }  // namespace
@@ -140,9 +132,8 @@ Rounded rounded_hull(const std::vector<Vec>& points) {
 }
 
 Rounded rounded_mesh(const Mesh& mesh) {
-  if (static_cast<int>(mesh.triangles.size()) <= kManyTriangles) return from(mesh, 0, true);
   Rounded shape = from(mesh, 0, true);
-  shape.core = make_solid(mesh, 1);
+  if (static_cast<int>(mesh.triangles.size()) > kManyTriangles) shape.tree = make_solid(mesh, 1);
   return shape;
 }
 
@@ -168,9 +159,8 @@ double distance(const std::array<Vec, 3>& a, const std::array<Vec, 3>& b) {
 }
 
 bool apart(const Rounded& a, const State& at_a, const Rounded& b, const State& at_b, double allowed) {
-  const bool trees = !a.core.tree.empty() && !b.core.tree.empty();
-  if (trees) return !overlap(a.core, at_a, b.core, at_b);
-  if (norm(at_b.position - at_a.position) > a.core.reach + a.radius + b.core.reach + b.radius) return true;
+  if (a.tree && b.tree) return !overlap(*a.tree, at_a, *b.tree, at_b);
+  if (norm(at_b.position - at_a.position) > a.reach + a.radius + b.reach + b.radius) return true;
   const auto triangles_a = world_triangles(a, at_a), triangles_b = world_triangles(b, at_b);
   const double radii = a.radius + b.radius;
   for (const auto& s : triangles_a) {

@@ -2,6 +2,8 @@
 // triangles (or a point, or a segment) with a rounding radius. Slow, plain, and nothing of the engine's.
 #pragma once
 
+#include <optional>
+
 #include "support/independent_overlap.hpp"
 
 namespace independent {
@@ -9,9 +11,11 @@ namespace independent {
 // Everything within `radius` of a core. A core without volume (a ball's point, a rod's segment) is one
 // triangle whose corners coincide.
 struct Rounded {
-  Solid core;           // frame: the shape's own (its centroid stays zero)
-  double radius = 0;    // m
-  bool closed = false;  // the core has an inside
+  Mesh core;                  // in the shape's own frame
+  double reach = 0;           // m, of the core from the frame's origin
+  double radius = 0;          // m
+  bool closed = false;        // the core has an inside
+  std::optional<Solid> tree;  // of many triangles: for two of these
 };
 Rounded rounded_ball(double radius);
 Rounded rounded_rod(double radius, double length);  // along z, without the caps

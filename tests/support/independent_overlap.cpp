@@ -134,18 +134,24 @@ bool overlap(const Solid& a, const State& at_a, const Solid& b, const State& at_
 
 // The solid angle of each triangle, by its spherical excess: the sum of the angles between the planes through
 // the point.
-double winding(const Solid& solid, const State& state, const Vec& point) {
-  const Vec local = transposed(rotation(state.orientation)) * (point - center(solid, state));
-  if (norm(local) > solid.reach) return 0;
+double winding(const std::vector<std::array<Vec, 3>>& triangles, const Vec& point) {
   double sum = 0;
-  for (int i = 0; i < static_cast<int>(solid.mesh.triangles.size()); ++i) {
-    std::array<Vec, 3> t = corners(solid, i);
-    for (Vec& x : t) x = x - local;
+  for (std::array<Vec, 3> t : triangles) {
+    for (Vec& x : t) x = x - point;
     const double a = norm(t[0]), b = norm(t[1]), c = norm(t[2]);
     sum += 2 * std::atan2(dot(t[0], cross(t[1], t[2])),
                           a * b * c + dot(t[0], t[1]) * c + dot(t[1], t[2]) * a + dot(t[2], t[0]) * b);
   }
   return sum / (4 * std::acos(-1.0));
+}
+
+double winding(const Solid& solid, const State& state, const Vec& point) {
+  const Vec local = transposed(rotation(state.orientation)) * (point - center(solid, state));
+  if (norm(local) > solid.reach) return 0;
+  std::vector<std::array<Vec, 3>> triangles;
+  for (int i = 0; i < static_cast<int>(solid.mesh.triangles.size()); ++i)
+    triangles.push_back(corners(solid, i));
+  return winding(triangles, local);
 }
 
 Solid make_solid(const Mesh& mesh, double density) {

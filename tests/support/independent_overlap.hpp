@@ -101,7 +101,9 @@ bool triangles_cross(const std::array<Vec, 3>& a, const std::array<Vec, 3>& b);
 enum class How { tree, every_pair };
 // Whether two solids overlap: their surfaces cross, or one lies inside the other.
 bool overlap(const Solid& a, const State& at_a, const Solid& b, const State& at_b, How how = How::tree);
-// How often the surface winds around a world point: 1 inside, 0 outside.
+// How often triangles wind around a point: 1 inside a closed surface that faces outwards, 0 outside.
+double winding(const std::vector<std::array<Vec, 3>>& triangles, const Vec& point);
+// The same of a solid's surface and a world point.
 double winding(const Solid& solid, const State& state, const Vec& point);
 
 }  // namespace independent
