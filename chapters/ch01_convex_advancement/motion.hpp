@@ -168,6 +168,15 @@ struct PairPose {
     b_in_a.rotation = rotation_a.transpose() * rotation_b;
     b_in_a.position = rotation_a.transpose() * offset_world;
   }
+  // Of two bodies that stand as they are.
+  PairPose(const Pose& a, const Pose& b)
+      : rotation_a(a.rotation),
+        rotation_b(b.rotation),
+        offset_world(b.position - a.position),
+        b_in_a{a.rotation.transpose() * b.rotation, a.rotation.transpose() * offset_world},
+        travelled(offset_world.norm()),
+        turned_a(0),
+        turned_b(0) {}
 };
 
 }  // namespace fc::ca

@@ -122,7 +122,7 @@ std::vector<lcp::Contact> contacts_of(const World& world, const Pair& pair, doub
 // little gap is left to spend, or round-off of the coordinates is no longer small against it.
 bool balls_meet(const World& world, Pair& pair, double now, double dt, StepReport& report) {
   const Balls balls(world, pair, now);
-  const double gap = balls.gap(), spend = std::min(gap, world.tolerance);
+  const double gap = balls.gap(), spend = std::min(gap, world.keep());
   if (!balls.straight || spend <= kStallShare * world.tolerance || balls.rounding > kSpendShare * spend)
     return false;
   report.min_gap = std::min(report.min_gap, gap);
@@ -168,7 +168,7 @@ void find_next_contact(const World& world, Pair& pair, double now, double dt, st
   if (!world.may_meet(pair.a, pair.b)) return;
   if (are_balls(world, pair) && balls_meet(world, pair, now, dt, report)) return;
   const ca::Motion motion_a = world.motion(pair.a, now), motion_b = world.motion(pair.b, now);
-  if (out_of_reach(world, pair, motion_a, motion_b, dt - now, world.tolerance)) return;
+  if (out_of_reach(world, pair, motion_a, motion_b, dt - now, world.keep())) return;
 
   const hulls::Model &model_a = world.model_of(pair.a), &model_b = world.model_of(pair.b);
   const ca::PairPose pose(motion_a, motion_b, 0);
@@ -184,9 +184,9 @@ void find_next_contact(const World& world, Pair& pair, double now, double dt, st
     report.advances += reach.advances;
   };
   if (!gap) {  // a pair that is within the tolerance already reaches `start` at once
-    options.target = 0.5 * world.tolerance;
+    options.target = 0.5 * world.keep();
     options.slack = 0.25 * world.tolerance;
-    options.start = world.tolerance;
+    options.start = world.keep();
     search();
     if (reach.status == hulls::Reach::Status::reached && reach.time == 0)
       gap = hulls::model_distance(model_a, model_b, pose, world.tolerance).lower;
@@ -205,9 +205,9 @@ void find_next_contact(const World& world, Pair& pair, double now, double dt, st
     const double smallest = kRoundingTerms * ca::rounding_term(model_a.whole(), model_b.whole(), pose);
     little = *gap <= std::max(smallest, kStallShare * world.tolerance);
     if (little) options.max_pairs = std::min(world.max_pairs, kStallPairs);
-    const double spend = std::min(*gap, world.tolerance);
+    const double spend = std::min(*gap, world.keep());
     options.target = *gap > smallest ? 0.5 * spend : *gap - smallest;
-    options.slack = 0.25 * (*gap > smallest ? spend : smallest);
+    options.slack = 0.25 * (*gap > smallest ? std::min(spend, world.tolerance) : smallest);
     options.start = -1;
     search();
   }

@@ -101,11 +101,22 @@ void turn_on(double spin_drag, double elapsed, double& start, double& rate) {
 
 }  // namespace
 
+namespace {
+
+// With the velocities that its points have, those of steering included.
+RigidBody steered(const Body& body, RigidBody state) {
+  state.velocity += body.steer_velocity;
+  state.spin += body.steer_spin;
+  return state;
+}
+
+}  // namespace
+
 ca::Motion World::motion(int body, double time) const {
   const Body& b = bodies[body];
   RigidBody state = state_at(body, time);
   if (b.held) state.velocity = state.spin = Vec3::Zero();
-  ca::Motion motion(state);
+  ca::Motion motion(b.steered && !b.held ? steered(b, state) : state);
   if (b.held || b.asleep || state.is_static()) return motion;
   add_effects(body, motion);
   if (b.free) turn_on(motion.spin_drag, time - b.time, motion.free_start, motion.free_rate);
@@ -136,11 +147,16 @@ RigidBody World::state_at(int body, double time) const {
   RigidBody state = bodies[body].state;
   const double elapsed = time - bodies[body].time;
   if (elapsed == 0 || stays(body)) return state;
-  ca::Motion motion(state);
+  const Body& b = bodies[body];
+  ca::Motion motion(b.steered ? steered(b, state) : state);
   if (yields(body)) add_effects(body, motion);
   state.position = motion.position_at(elapsed);
   state.velocity = motion.velocity_at(elapsed);
   state.spin = motion.spin_at(elapsed);
+  if (b.steered) {
+    state.velocity -= b.steer_velocity;
+    state.spin -= b.steer_spin;
+  }
   if (motion.free) {
     state.orientation = Quat(motion.rotation_at(elapsed)).normalized();
   } else if (motion.spin_rate > 0) {
@@ -154,7 +170,7 @@ void World::set_course(int body, const RigidBody& state, double time) {
   Body& b = bodies[body];
   b.state = state;
   b.time = time;
-  b.held = b.asleep = false;
+  b.held = b.asleep = b.steered = false;
   if (!effects.gyroscopic || !yields(body)) return;
   ca::Motion motion(state);
   motion.turn_freely(principal[b.shape]);
@@ -178,6 +194,7 @@ ca::Motion World::course(int body, double time) const {
   path.position = b.state.position;
   if (stays(body)) return path;
   path.velocity = b.state.velocity;
+  if (b.steered) path.velocity += b.steer_velocity;
   if (yields(body)) add_forces(b, path);
   const double elapsed = time - b.time;
   const Vec3 position = path.position_at(elapsed), velocity = path.velocity_at(elapsed);

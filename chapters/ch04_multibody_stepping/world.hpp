@@ -30,6 +30,10 @@ struct Body {
   bool was_held = false;   // until the end of the last frame
   bool supported = false;  // for this frame: what it lies on cancels gravity (chapter 5)
   bool lies = false;       // held, and on nothing that moves
+  bool foreseen = false;  // its way through the frame is proved, whatever comes near it (chapter 5)
+  // Chapter 5: it is moved by this, too, until it takes a new course; no velocity knows of it.
+  bool steered = false;
+  Vec3 steer_velocity = Vec3::Zero(), steer_spin = Vec3::Zero();  // m/s, rad/s
   double still = 0;        // s, how long it has lain without a break
   // With a gyroscopic effect: its rotation since the last impact, and where on it the body is at `time`.
   std::shared_ptr<const ca::TorqueFree> free;
@@ -59,10 +63,15 @@ struct World {
   double tolerance = 1e-6;                   // m; the scene's, or what rounding allows at least
   std::int64_t max_pairs = 1'000'000;        // of nodes, for one search; it then goes on from where it got to
   double touch = 0;  // m, how near is a contact when something is hit; no less than the tolerance (chapter 5)
+  double reserve = 0;  // m, half of which a pair has left when it is stopped; 0: the tolerance (chapter 5)
   double rest_speed = 0;  // m/s, what comes in no faster does not bounce, and is then supported (chapter 5)
+  // Pairs (a < b, in order) that are proved clear for the next frame as long as neither takes a new course
+  // (chapter 5).
+  std::vector<std::pair<int, int>> proved;
   lcp::ImpactOptions impact = {};  // the solver of an instant's contacts
 
   const hulls::Model& model_of(int body) const { return models[bodies[body].shape]; }
+  double keep() const { return std::max(tolerance, reserve); }  // m: see find_next_contact()
   double restitution_of(int a, int b) const {  // a pair takes the larger of its two shapes' values
     return std::max(shapes[bodies[a].shape].restitution, shapes[bodies[b].shape].restitution);
   }
@@ -80,7 +89,7 @@ struct World {
     const Body& b = bodies[body];
     if (b.held || b.asleep) return true;
     const bool falls = !b.state.is_static() && effects.gravity && !b.supported;
-    return !falls && b.state.velocity.isZero(0) && b.state.spin.isZero(0);
+    return !falls && !b.steered && b.state.velocity.isZero(0) && b.state.spin.isZero(0);
   }
   // Whether an impulse at the body's surface can turn it, or its spin moves its surface along the normal.
   bool turns(int body) const { return effects.arms || ball_radius[bodies[body].shape] == 0; }

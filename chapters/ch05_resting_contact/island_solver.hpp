@@ -11,10 +11,12 @@
 namespace fc::resting {
 
 struct IslandOptions {
-  int most_dense_rows = 400;  // up to so many, Dantzig's method; beyond, projected Gauss-Seidel
-  double residual = 1e-8;     // at which Gauss-Seidel is done, scale-free as in chapter 3
-  double accepted = 1e-5;     // with which it may end after the last sweep
+  int most_dense_rows =
+      400;                 // up to so many, Dantzig's method; beyond, Gauss-Seidel with conjugate directions
+  double residual = 1e-8;  // at which Gauss-Seidel is done, scale-free as in chapter 3
+  double accepted = 1e-5;  // with which it may end after the last sweep
   int most_sweeps = 1000;
+  int look_every = 4;  // sweeps between two looks at the residual
 };
 
 struct IslandResult {
@@ -42,13 +44,26 @@ class IslandSolver {
 
   // A contact as one sweep sees it.
   struct Row {
-    int a, b;                     // bodies; -1: no impulse moves it
     Vec3 normal, arm_a, arm_b;    // m: r x n
     Vec3 turn_a, turn_b;          // 1/(kg m): I^-1 (r x n)
     double inverse_a, inverse_b;  // 1/kg
-    double diagonal, fixed;       // 1/kg; m/s: what bodies that no impulse moves contribute, and `allowed`
+    double diagonal, inverse_diagonal, allowed;
+    int a, b;
   };
+  struct Twist {
+    Vec3 velocity, spin;
+  };
+  void build_rows(std::span<const RigidBody> bodies, std::span<const lcp::Contact> contacts,
+                  std::span<const double> allowed);
+  double speed(const Row& row) const;
+  void push(const Row& row, double impulse);
+  double sweep(std::span<double> z);
+  double residual(std::span<const double> z, double scale) const;
+
   std::vector<Row> rows_;
+  std::vector<Mat3> turns_;
+  std::vector<Twist> twists_, twists_before_, along_;  // of the bodies; `along`: of the direction
+  std::vector<double> z_before_, direction_;
   lcp::DantzigSolver dantzig_;
 };
 

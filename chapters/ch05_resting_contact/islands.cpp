@@ -4,50 +4,60 @@
 
 namespace fc::resting {
 
+Joined::Joined(std::size_t bodies) : parent_(bodies) {
+  std::iota(parent_.begin(), parent_.end(), 0);
+}
+
+int Joined::root(int body) {
+  int at = body;
+  for (; parent_[static_cast<std::size_t>(at)] != at; at = parent_[static_cast<std::size_t>(at)]) {
+    int& parent = parent_[static_cast<std::size_t>(at)];
+    parent = parent_[static_cast<std::size_t>(parent)];  // half the way, for whoever comes next
+  }
+  return at;
+}
+
 std::vector<std::vector<int>> islands_of(const world::World& world, const std::vector<ShellContact>& shell,
                                          const std::vector<char>& taken) {
-  std::vector<int> parent(world.bodies.size());  // a forest: two bodies of one tree are of one island
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int body) {
-    for (; parent[body] != body; body = parent[body]) parent[body] = parent[parent[body]];
-    return body;
-  };
+  Joined joined(world.bodies.size());
   for (std::size_t i = 0; i < shell.size(); ++i) {
     const lcp::Contact& c = shell[i].contact;
-    if (taken[i] && world.yields(c.body_a) && world.yields(c.body_b)) parent[root(c.body_a)] = root(c.body_b);
+    if (taken[i] && world.yields(c.body_a) && world.yields(c.body_b)) joined.join(c.body_a, c.body_b);
   }
   std::vector<std::vector<int>> islands;
   std::vector<int> island_of(world.bodies.size(), -1);
   for (std::size_t i = 0; i < shell.size(); ++i) {
     if (!taken[i]) continue;
     const lcp::Contact& c = shell[i].contact;
-    int& island = island_of[root(world.yields(c.body_a) ? c.body_a : c.body_b)];
+    int& island =
+        island_of[static_cast<std::size_t>(joined.root(world.yields(c.body_a) ? c.body_a : c.body_b))];
     if (island < 0) {
       island = static_cast<int>(islands.size());
       islands.emplace_back();
     }
-    islands[island].push_back(static_cast<int>(i));
+    islands[static_cast<std::size_t>(island)].push_back(static_cast<int>(i));
   }
   return islands;
 }
 
-Island::Island(const world::World& world, const std::vector<ShellContact>& shell,
+Island::Island(const std::vector<RigidBody>& states, const std::vector<ShellContact>& shell,
                const std::vector<int>& members, std::vector<int>& place) {
   const auto local = [&](int body) {
-    if (place[body] < 0) {
-      place[body] = static_cast<int>(numbers.size());
+    int& at = place[static_cast<std::size_t>(body)];
+    if (at < 0) {
+      at = static_cast<int>(numbers.size());
       numbers.push_back(body);
-      bodies.push_back(world.bodies[body].state);
-      reaches.push_back(world.shapes[world.bodies[body].shape].reach);
+      bodies.push_back(states[static_cast<std::size_t>(body)]);
     }
-    return place[body];
+    return at;
   };
   for (const int i : members) {
-    contacts.push_back(shell[i].contact);
+    contacts.push_back(shell[static_cast<std::size_t>(i)].contact);
     contacts.back().body_a = local(contacts.back().body_a);
     contacts.back().body_b = local(contacts.back().body_b);
+    contacts.back().restitution = 0;  // who bounces is said by how fast it may close in
   }
-  for (const int body : numbers) place[body] = -1;
+  for (const int body : numbers) place[static_cast<std::size_t>(body)] = -1;
 }
 
 }  // namespace fc::resting

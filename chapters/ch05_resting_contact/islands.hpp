@@ -3,9 +3,20 @@
 
 #include <vector>
 
-#include "ch05_resting_contact/envelope.hpp"
+#include "ch05_resting_contact/shell.hpp"
 
 namespace fc::resting {
+
+// Sets of bodies that grow together.
+class Joined {
+ public:
+  explicit Joined(std::size_t bodies);
+  int root(int body);
+  void join(int a, int b) { parent_[static_cast<std::size_t>(root(a))] = root(b); }
+
+ private:
+  std::vector<int> parent_;  // a forest: two bodies of one tree are joined
+};
 
 // The contacts of each island by their places in the shell, ascending; only those that are `taken`.
 std::vector<std::vector<int>> islands_of(const world::World& world, const std::vector<ShellContact>& shell,
@@ -15,12 +26,11 @@ std::vector<std::vector<int>> islands_of(const world::World& world, const std::v
 struct Island {
   std::vector<int> numbers;  // in the world
   std::vector<RigidBody> bodies;
-  std::vector<double> reaches;  // m, of the bodies' shapes
   std::vector<lcp::Contact> contacts;
 
-  // `place` is room for as many bodies as the world has, all -1, and so again afterwards.
-  Island(const world::World& world, const std::vector<ShellContact>& shell, const std::vector<int>& members,
-         std::vector<int>& place);
+  // `states`: of all bodies. `place` is room for as many, all -1, and so again afterwards.
+  Island(const std::vector<RigidBody>& states, const std::vector<ShellContact>& shell,
+         const std::vector<int>& members, std::vector<int>& place);
 };
 
 }  // namespace fc::resting

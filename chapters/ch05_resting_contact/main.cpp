@@ -37,8 +37,8 @@ int run(const Scene& scene, const RunContext& context, Summary& summary) {
                                       sweeps += report.sweeps;
                                       searched += report.searched;
                                       largest = std::max(largest, report.largest_island);
-                                      energy += report.steering.energy;
-                                      steered = std::max(steered, report.steering.way);
+                                      energy += report.steering_energy;
+                                      steered = std::max(steered, report.steered);
                                       return report.step;
                                     });
   if (resting) summary.add("envelope", resting->envelope(), "m");

@@ -1,9 +1,9 @@
 #include "ch05_resting_contact/resting.hpp"
 
 #include <algorithm>
+#include <limits>
+#include <utility>
 
-#include "ch05_resting_contact/islands.hpp"
-#include "ch05_resting_contact/steering.hpp"
 #include "common/stopwatch.hpp"
 
 namespace fc::resting {
@@ -18,84 +18,196 @@ constexpr double kStill = 1e-9;
 
 }  // namespace
 
-Resting::Resting(const Scene& scene, world::World& world, double dt)
-    : shell_(envelope_of(scene, world)), dt_(dt) {
-  world.rest_speed = shell_.envelope() / dt;
+Resting::Resting(const Scene& scene, world::World& world, double dt, const RestOptions& options)
+    : shell_(world, envelope_of(scene, world)),
+      options_(options),
+      frame_(dt),
+      dt_(dt),
+      place_(world.bodies.size(), -1) {
   world.touch = shell_.envelope();
+  world.reserve = 0.5 * shell_.envelope();
 }
 
-// ANCHOR: step
 RestReport Resting::step(world::World& world, const world::Listeners& listeners) {
   const Stopwatch watch;
   RestReport report;
-  for (world::Body& body : world.bodies) body.supported = false;
-  shell_.find(world);
-  solve_islands(world, listeners, report);          // contacts that last
-  add(world::step(world, dt_, listeners), report);  // chapter 4: everything else
-  report.steering = steer(world, shell_, solver_);  // gaps
+  report.step.min_gap = report.smallest_gap = std::numeric_limits<double>::infinity();
+  const int parts = 1 << halvings_;  // as many as the last frame would have needed, or half of that
+  halvings_ = std::max(0, halvings_ - 1);
+  for (int part = 0; part < parts; ++part) {
+    int level = 0;
+    while ((1 << level) < parts) ++level;
+    advance(world, {frame_ / parts * part, frame_ / parts, level}, listeners, report);
+  }
   report.step.step_ns = watch.ns();
   report.step.ccd_ns = report.step.step_ns - report.step.lcp_ns;
   return report;
 }
+
+// ANCHOR: step
+void Resting::advance(world::World& world, const Part& part, const world::Listeners& listeners,
+                      RestReport& report) {
+  begin(world, part);
+  take(world);
+  for (const std::vector<int>& members : islands_of(world, shell_.contacts(), taken_))
+    solve(world, members, report);                            // contacts that last
+  solve_crowd(world, report);                                 // those of which there are too many
+  steer(world, report);                                       // gaps
+  if (!prove(world, report) && part.level < kMostHalvings) {  // the way
+    world.bodies = saved_[at(part.level)];
+    halvings_ = std::max(halvings_, part.level + 1);
+    for (const double half : {0.0, 0.5 * part.length})
+      advance(world, {part.start + half, 0.5 * part.length, part.level + 1}, listeners, report);
+    return;
+  }
+  finish(world, report);
+  const world::Listeners later = from(part.start, listeners);
+  tell(world, later, report);
+  add(world::step(world, dt_, later), report.step);  // chapter 4: everything else
+}
 // ANCHOR_END: step
 
-// The frame's report is that of chapter 4's step, and what the islands added to it.
-void Resting::add(const world::StepReport& events, RestReport& report) const {
-  const world::StepReport resting = report.step;
-  report.step = events;
-  report.step.contacts += resting.contacts;
-  report.step.impacts += resting.impacts;
-  report.step.lcp_rows += resting.lcp_rows;
-  report.step.solves += resting.solves;
-  report.step.lcp_ns += resting.lcp_ns;
-  report.step.lcp_residual = std::max(events.lcp_residual, resting.lcp_residual);
-  report.step.min_gap = std::min(events.min_gap, report.smallest_gap);
-  report.step.max_penetration = std::max(events.max_penetration, -std::min(0.0, report.smallest_gap));
+// The same listeners, for a part of a frame.
+world::Listeners Resting::from(double start, const world::Listeners& listeners) {
+  if (start == 0) return listeners;
+  world::Listeners later;
+  if (listeners.impact)
+    later.impact = [start, &listeners](world::ImpactRecord impact) {
+      impact.time += start;
+      listeners.impact(impact);
+    };
+  if (listeners.instant)
+    later.instant = [start, &listeners](const world::World& world, double time) {
+      listeners.instant(world, start + time);
+    };
+  if (listeners.sighting)
+    later.sighting = [start, &listeners](world::Sighting sighting) {
+      sighting.time += start;
+      listeners.sighting(sighting);
+    };
+  return later;
 }
 
-void Resting::solve_islands(world::World& world, const world::Listeners& listeners, RestReport& report) {
-  std::vector<ShellContact>& shell = shell_.contacts();
-  const double fast = shell_.envelope() / dt_;
-  report.searched = shell_.searched();
-  report.shell_contacts = static_cast<int>(shell.size());
-  report.smallest_gap = shell_.smallest_gap();
-
-  std::vector<RigidBody> states;
-  for (const world::Body& body : world.bodies) states.push_back(body.state);
-  std::vector<char> taken(shell.size());
-  for (std::size_t i = 0; i < shell.size(); ++i) {
-    // What comes in faster than the shell allows is an impact, and chapter 4's. (Unless it has no way left to
-    // come in: then it is stopped here, without a bounce.)
-    taken[i] = -lcp::contact_velocity(states, shell[i].contact) <= fast ||
-               shell[i].contact.gap < kNoWay * world.tolerance;
-    if (!taken[i]) shell[i].impulse = 0;
-  }
-  std::vector<int> place(world.bodies.size(), -1);
-  for (const std::vector<int>& members : islands_of(world, shell, taken)) {
-    Island island(world, shell, members, place);
-    solve(world, members, island, listeners, report);
-  }
-  if (listeners.instant && report.step.impacts > 0) listeners.instant(world, 0);
+void Resting::add(const world::StepReport& part, world::StepReport& all) {
+  all.contacts += part.contacts;
+  all.impacts += part.impacts;
+  all.lcp_rows += part.lcp_rows;
+  all.solves += part.solves;
+  all.lcp_residual = std::max(all.lcp_residual, part.lcp_residual);
+  all.min_gap = std::min(all.min_gap, part.min_gap);
+  all.max_penetration = std::max(all.max_penetration, part.max_penetration);
+  all.lost_time += part.lost_time;
+  all.momentum_error = std::max(all.momentum_error, part.momentum_error);
+  all.energy_error = std::max(all.energy_error, part.energy_error);
+  all.energy_gain = std::max(all.energy_gain, part.energy_gain);
+  all.kinematic_work += part.kinematic_work;
+  all.slept_energy += part.slept_energy;
+  all.falls_asleep += part.falls_asleep;
+  all.wakes += part.wakes;
+  all.sightings += part.sightings;
+  all.pairs += part.pairs;
+  all.advances += part.advances;
+  all.queries += part.queries;
+  all.node_pairs += part.node_pairs;
+  all.lcp_ns += part.lcp_ns;
 }
 
-void Resting::solve(world::World& world, const std::vector<int>& members, Island& island,
-                    const world::Listeners& listeners, RestReport& report) {
+// Where everything stands, which contacts there are, and what gravity will have made of the velocities by the
+// frame's end. (A body that was held did not live through the last frame: it has that frame's gravity
+// already.)
+void Resting::begin(world::World& world, const Part& part) {
+  const double share = part.length / dt_;  // of the impulses that were
+  dt_ = part.length;
+  world.rest_speed = shell_.envelope() / dt_;
+  saved_[at(part.level)] = world.bodies;
+  given_.clear();
+  start_.clear();
+  sweeps_.clear();
+  for (world::Body& body : world.bodies) {
+    body.supported = body.steered = body.foreseen = false;
+    given_.push_back(body.state);
+    start_.push_back(body.state);
+    if (world.effects.gravity && !body.state.is_static() && !body.was_held)
+      start_.back().velocity += dt_ * *world.effects.gravity;
+    const bool moves = !world.stays(static_cast<int>(start_.size()) - 1);
+    sweeps_.push_back({body.state.position, 0});
+    if (!moves) continue;
+    sweeps_.back().end += dt_ * start_.back().velocity;
+    sweeps_.back().turn = dt_ * body.state.spin.norm();
+  }
+  shell_.find(world, sweeps_);
+  for (ShellContact& contact : shell_.contacts()) {
+    contact.bounce = std::exchange(contact.bounce_next, 0);
+    contact.impulse *= share;
+  }
+  find_crowds(world);
+  resting_.assign(world.bodies.size(), 0);
+  changed_.assign(world.bodies.size(), 1);
+  tracks_.resize(world.bodies.size());
+  for (int body = 0; body < static_cast<int>(tracks_.size()); ++body) follow(world, body);
+  taken_.clear();
+  row_.clear();
+  end_gaps_.clear();
+  contact_of_.clear();
+  crowd_.begin(start_);
+}
+
+// Bodies that are near each other, over others if need be, with more rows than are solved exactly.
+void Resting::find_crowds(const world::World& world) {
+  Joined joined(world.bodies.size());
+  for (const ShellPair& pair : shell_.pairs())
+    if (world.yields(pair.a) && world.yields(pair.b)) joined.join(pair.a, pair.b);
+  std::vector<int> rows(world.bodies.size(), 0);
+  for (const ShellPair& pair : shell_.pairs())
+    rows[at(joined.root(world.yields(pair.a) ? pair.a : pair.b))] += pair.count;
+  crowded_.assign(world.bodies.size(), 0);
+  for (int body = 0; body < static_cast<int>(crowded_.size()); ++body)
+    crowded_[at(body)] = world.yields(body) && rows[at(joined.root(body))] > options_.crowd;
+}
+
+// What comes in faster than the shell allows is an impact, and chapter 4's, unless it has no way left to come
+// in. In a crowd every contact is a row. Looks at those that it has not looked at yet.
+void Resting::take(const world::World& world) {
+  const double fast = shell_.envelope() / dt_, middle = 0.5 * shell_.envelope();
+  const std::vector<ShellContact>& shell = shell_.contacts();
+  for (std::size_t i = taken_.size(); i < shell.size(); ++i) {
+    const lcp::Contact& c = shell[i].contact;
+    row_.push_back(-1);
+    taken_.push_back(0);
+    if (is_crowded(c)) {
+      add_row(static_cast<int>(i));
+    } else {
+      const double closing = -lcp::contact_velocity(given_, c);
+      taken_[i] = c.restitution == 0 || closing <= std::max(fast, (c.gap - middle) / dt_) ||
+                  c.gap < kNoWay * world.tolerance;
+    }
+  }
+}
+
+// How fast a contact may close in, m/s; negative: it must part. `before` is its velocity with gravity's part.
+double Resting::allowed(ShellContact& c) const {
+  const double middle = 0.5 * shell_.envelope(), fast = shell_.envelope() / dt_;
+  c.before = lcp::contact_velocity(start_, c.contact);
+  if (c.bounce > 0) return -c.bounce;
+  if (is_crowded(c.contact) && c.contact.restitution > 0 && -c.before > fast &&
+      c.contact.gap <= shell_.envelope())
+    return c.contact.restitution * c.before;
+  return std::max(0.0, c.contact.gap - middle) / dt_;
+}
+
+void Resting::solve(world::World& world, const std::vector<int>& members, RestReport& report) {
   const Stopwatch watch;
   std::vector<ShellContact>& shell = shell_.contacts();
-  const double middle = 0.5 * shell_.envelope();
-  // The velocities that gravity would make of them by the frame's end. (One that was held did not live
-  // through the last frame: it has that frame's gravity already.)
-  if (world.effects.gravity)
-    for (std::size_t k = 0; k < island.bodies.size(); ++k)
-      if (!island.bodies[k].is_static() && !world.bodies[island.numbers[k]].was_held)
-        island.bodies[k].velocity += dt_ * *world.effects.gravity;
-  std::vector<double> allowed, impulses, before;
+  Island island(start_, shell, members, place_);
+  allowed_.clear();
+  impulses_.clear();
   for (std::size_t k = 0; k < members.size(); ++k) {
-    allowed.push_back(std::max(0.0, island.contacts[k].gap - middle) / dt_);
-    impulses.push_back(shell[members[k]].impulse);
-    before.push_back(lcp::contact_velocity(island.bodies, island.contacts[k]));
+    ShellContact& c = shell[at(members[k])];
+    allowed_.push_back(allowed(c));
+    impulses_.push_back(c.impulse);
   }
-  const IslandResult result = solver_.solve(island.bodies, island.contacts, allowed, impulses, {});
+  const IslandResult result =
+      solver_.solve(island.bodies, island.contacts, allowed_, impulses_, options_.small);
   FC_CHECK(result.solved, "the resting contacts of an island could not be solved");
   const int rows = static_cast<int>(members.size());
   report.sweeps += result.sweeps;
@@ -109,30 +221,66 @@ void Resting::solve(world::World& world, const std::vector<int>& members, Island
   std::vector<char> pushed(island.bodies.size()), supported(island.bodies.size());
   for (std::size_t k = 0; k < members.size(); ++k) {
     const lcp::Contact& contact = island.contacts[k];
-    shell[members[k]].impulse = impulses[k];
-    if (!(impulses[k] > 0)) continue;
-    pushed[contact.body_a] = pushed[contact.body_b] = 1;
+    ShellContact& c = shell[at(members[k])];
+    c.impulse = impulses_[k];
+    c.after = lcp::contact_velocity(island.bodies, contact);
+    if (!(impulses_[k] > 0)) continue;
+    pushed[at(contact.body_a)] = pushed[at(contact.body_b)] = 1;
     if (world::bears_weight(contact.normal, gravity))
-      supported[contact.body_a] = supported[contact.body_b] = 1;
-    ++report.step.impacts;
-    if (listeners.impact)
-      listeners.impact({0,
-                        shell[members[k]].contact,
-                        {0, 0, before[k], lcp::contact_velocity(island.bodies, contact), impulses[k]}});
+      supported[at(contact.body_a)] = supported[at(contact.body_b)] = 1;
   }
   for (std::size_t k = 0; k < island.bodies.size(); ++k) {
-    RigidBody& state = island.bodies[k];
-    if (!pushed[k] || state.is_static()) continue;  // nothing pushed it: it falls, in closed form
-    if (supported[k] &&
-        (state.velocity.norm() + island.reaches[k] * state.spin.norm()) * dt_ < kStill * shell_.envelope())
-      state.velocity = state.spin = Vec3::Zero();
-    // Pushed by walls alone it goes on falling, in closed form: gravity will add again what is in its
-    // velocity.
-    world.bodies[island.numbers[k]].supported = supported[k];
-    if (!supported[k] && !world.bodies[island.numbers[k]].was_held) state.velocity -= dt_ * gravity;
-    world.set_course(island.numbers[k], state, 0);
+    RigidBody& body = island.bodies[k];
+    if (body.is_static()) continue;
+    const double reach = tracks_[at(island.numbers[k])].reach;
+    const double way = dt_ * (body.velocity.norm() + reach * body.spin.norm());
+    if (supported[k] && way < kStill * shell_.envelope()) body.velocity = body.spin = Vec3::Zero();
+    take_course(world, island.numbers[k], pushed[k], supported[k], body);
+    follow(world, island.numbers[k]);
   }
   report.step.lcp_ns += watch.ns();
+}
+
+// What was pushed moves straight on; what was not falls in closed form. Pushed by walls alone it goes on
+// falling, too: gravity will add again what is in its velocity.
+void Resting::take_course(world::World& world, int number, bool pushed, bool supported, RigidBody state) {
+  world::Body& body = world.bodies[number];
+  const bool was_pushed = resting_[at(number)] == 2;
+  resting_[at(number)] = pushed ? 2 : 1;
+  if (!pushed) {
+    if (!was_pushed) return;
+    state = given_[at(number)];
+    supported = false;
+  } else if (!supported) {
+    state.velocity -= start_[at(number)].velocity - given_[at(number)].velocity;
+  }
+  if (body.asleep && state.velocity.isZero(0) && state.spin.isZero(0)) return;  // nothing wakes it
+  body.supported = supported;
+  world.set_course(number, state, 0);
+}
+
+void Resting::tell(const world::World& world, const world::Listeners& listeners, RestReport& report) {
+  report.searched += shell_.searched();
+  report.shell_contacts += static_cast<int>(shell_.contacts().size());
+  report.smallest_gap = std::min(report.smallest_gap, shell_.smallest_gap());
+  report.step.min_gap = std::min(report.step.min_gap, shell_.smallest_gap());
+  report.step.max_penetration = std::max(report.step.max_penetration, -std::min(0.0, shell_.smallest_gap()));
+  report.crowded =
+      std::max(report.crowded, static_cast<int>(std::count(crowded_.begin(), crowded_.end(), 1)));
+  for (int row = 0; row < crowd_.rows(); ++row) {
+    ShellContact& c = shell_.contacts()[at(contact_of_[at(row)])];
+    c.impulse = crowd_.impulse(row);
+    c.after = crowd_.speed(row);
+  }
+  bool any = false;
+  for (std::size_t i = 0; i < taken_.size(); ++i) {
+    const ShellContact& c = shell_.contacts()[i];
+    if (!(taken_[i] || row_[i] >= 0) || !(c.impulse > 0)) continue;
+    ++report.step.impacts;
+    any = true;
+    if (listeners.impact) listeners.impact({0, c.contact, {0, 0, c.before, c.after, c.impulse}});
+  }
+  if (listeners.instant && any) listeners.instant(world, 0);
 }
 
 }  // namespace fc::resting

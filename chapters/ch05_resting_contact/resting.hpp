@@ -1,11 +1,14 @@
-// Chapter 5's step: contacts that last are solved at the frame's start, everything else happens as in chapter
-// 4, and gaps are put right by positions alone.
+// Chapter 5's step: contacts that last are solved at the frame's start, the way that follows is proved and
+// put right by positions alone, and everything else happens as in chapter 4.
 #pragma once
 
+#include <array>
+
+#include "ch05_resting_contact/crowd.hpp"
 #include "ch05_resting_contact/envelope.hpp"
 #include "ch05_resting_contact/island_solver.hpp"
 #include "ch05_resting_contact/islands.hpp"
-#include "ch05_resting_contact/steering.hpp"
+#include "ch05_resting_contact/path.hpp"
 
 namespace fc::resting {
 
@@ -13,36 +16,104 @@ namespace fc::resting {
 struct RestReport {
   world::StepReport step;  // all of the frame, resting contacts included
   int shell_contacts = 0;
-  std::int64_t searched = 0;  // pairs whose contacts were searched anew
-  int largest_island = 0;     // rows
-  int sweeps = 0;             // of Gauss-Seidel, all islands
-  double smallest_gap = 0;    // m, in the shell, at the frame's start; infinite if it is empty
-  Steering steering;
+  std::int64_t searched = 0;            // pairs whose contacts were searched anew
+  std::int64_t checked = 0;             // ways of pairs through the frame that were to be proved
+  int crowded = 0;                      // bodies in crowds: see Resting
+  int rounds = 0;                       // in which velocities or ways were mended
+  int stopped = 0;                      // bodies of crowds whose way could not be mended
+  int largest_island = 0;               // rows
+  int sweeps = 0, steering_sweeps = 0;  // of Gauss-Seidel, all islands
+  double smallest_gap = 0;              // m, in the shell, at the frame's start; infinite if it is empty
+  double steered = 0;                   // m, the largest that a body's point was moved to put gaps right
+  double steering_energy = 0;           // J, potential energy that this added
+};
+
+struct RestOptions {
+  int crowd = 400;           // rows of bodies that are near each other, beyond which they are a crowd
+  IslandOptions small = {};  // how islands are solved
+  CrowdOptions crowded = {};
 };
 
 // Keeps what lasts from frame to frame.
 class Resting {
  public:
   // Sets the world's rest_speed and touch. Throws as envelope_of().
-  Resting(const Scene& scene, world::World& world, double dt);
+  Resting(const Scene& scene, world::World& world, double dt, const RestOptions& options = {});
 
   // One frame of dt seconds. Guarantees of chapter 4's step hold: no gap ever becomes zero. A pair within the
   // envelope whose bodies close in slower than the envelope's width in a frame is no event: it gets an
   // impulse at the frame's start so that at its end, to first order in dt, its gap is at least half the
-  // envelope, or what it was. Throws NumericalFailure if an island cannot be solved.
+  // envelope, or what it was. In a crowd nothing is an event: there, what comes in from outside of the shell
+  // gets an impulse at the frame's start, too, with which it arrives at the frame's end. Throws
+  // NumericalFailure if an island cannot be solved.
   RestReport step(world::World& world, const world::Listeners& listeners = {});
 
   double envelope() const { return shell_.envelope(); }
 
  private:
-  void solve_islands(world::World& world, const world::Listeners& listeners, RestReport& report);
-  void solve(world::World& world, const std::vector<int>& members, Island& island,
-             const world::Listeners& listeners, RestReport& report);
-  void add(const world::StepReport& events, RestReport& report) const;
+  // A part of a frame: all of it, or where that could not be mended, halves, quarters, ...
+  struct Part {
+    double start, length;  // s
+    int level;
+  };
+  static constexpr int kMostHalvings = 4;
+  void advance(world::World& world, const Part& part, const world::Listeners& listeners, RestReport& report);
+  void begin(world::World& world, const Part& part);
+  void find_crowds(const world::World& world);
+  bool is_crowded(const lcp::Contact& c) const { return crowded_[at(c.body_a)] || crowded_[at(c.body_b)]; }
+  void take(const world::World& world);
+  void solve(world::World& world, const std::vector<int>& members, RestReport& report);
+  void solve_crowd(world::World& world, RestReport& report);
+  void add_row(int contact);
+  double allowed(ShellContact& contact) const;
+  void move_in_crowd(world::World& world, int body, bool stands);
+  void mark_pushed(const world::World& world);
+  void move_touched(world::World& world);
+  double slack(double gap) const;
+  void steer_crowd(world::World& world, RestReport& report);
+  void take_course(world::World& world, int number, bool pushed, bool supported, RigidBody state);
+  void follow(const world::World& world, int body);
+  void steer(world::World& world, RestReport& report);
+  void steer_island(world::World& world, const std::vector<int>& members, RestReport& report);
+  bool concerns(const world::World& world, const ShellPair& pair) const;
+  double need(const world::World& world, const ShellPair& pair) const;
+  bool prove(world::World& world, RestReport& report);
+  void finish(world::World& world, RestReport& report);
+  bool mend(world::World& world, ShellPair& pair, double time);
+  void stop_crowd(world::World& world, std::vector<std::pair<std::size_t, double>> open, RestReport& report);
+  void tell(const world::World& world, const world::Listeners& listeners, RestReport& report);
+  static void add(const world::StepReport& part, world::StepReport& all);
+  static world::Listeners from(double start, const world::Listeners& listeners);
+  static std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
   Shell shell_;
   IslandSolver solver_;
-  double dt_;
+  Crowd crowd_;
+  RestOptions options_;
+  double frame_, dt_;  // s, of a frame, and of the part of it at hand
+  int halvings_ = 0;   // with which the next frame begins
+  std::array<std::vector<world::Body>, kMostHalvings + 1> saved_;  // as they were when a part began
+
+  // Of the frame at hand, for each body: as it was given, and with the velocity that gravity will have made
+  // of it by the frame's end; its way through the frame; whether it is in a crowd, in an island (2: and was
+  // pushed there), and has got another way since its pairs were looked at.
+  std::vector<RigidBody> given_, start_;
+  std::vector<Track> tracks_;
+  std::vector<Sweep> sweeps_;
+  std::vector<char> crowded_, resting_, changed_;
+  // Pairs whose way is not proved, and the time at which they come too near.
+  std::vector<std::pair<std::size_t, double>> open_;
+  // For each contact of the shell: whether it is a row of this chapter, which one of the crowd (or -1); and
+  // its gap at the frame's end.
+  std::vector<char> taken_;
+  std::vector<int> row_;
+  std::vector<int> contact_of_;  // of each of the crowd's rows
+  std::vector<double> end_gaps_;
+  std::vector<char> pushed_;  // of each body of the crowd: see mark_pushed()
+  std::vector<double> slacks_;
+  // Room for an island.
+  std::vector<int> place_;
+  std::vector<double> allowed_, impulses_;
 };
 
 }  // namespace fc::resting

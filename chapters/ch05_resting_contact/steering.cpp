@@ -1,108 +1,255 @@
-#include "ch05_resting_contact/steering.hpp"
-
+// Of a frame: gaps put right by positions alone, and the proof that nothing overlaps on the way.
 #include <algorithm>
 #include <cmath>
+
+#include "ch05_resting_contact/resting.hpp"
 
 namespace fc::resting {
 namespace {
 
-// Of what a gap lacks to half the envelope, so much is made up in a frame; and no body is moved by more than
-// this part of the envelope, so that bodies outside each other's shells stay apart.
-constexpr double kSteerShare = 0.2, kMostSteered = 0.2;
+// Of what a gap lacks to half the envelope, so much is made up in a frame; below the second part of the
+// envelope all of it. No point of a body is moved by more than the third part: the list of pairs knows.
+constexpr double kSteerShare = 0.2, kLeastGap = 0.25, kMostSteered = 2;
 
 constexpr double kNearMiddle = 1 - 1e-3;  // of the middle: a gap above it is let be
-constexpr double kSteerResidual = 1e-4;   // positions need no more: the next frame goes on
-constexpr double kMostLost = 0.1;         // of a gap, by what the rough answer missed
-constexpr int kMostHalvings = 6;
+constexpr double kSteerResidual = 1e-3;   // positions need no more: the way is proved afterwards
 
-// Whether every pair in contact keeps half of its gap, or half of the envelope's middle, from the island's
-// bodies to the moved ones.
-bool keeps_gaps(const world::World& world, const Island& island, const std::vector<RigidBody>& moved,
-                double middle) {
-  for (std::size_t i = 0; i < island.contacts.size();) {
-    const lcp::Contact& c = island.contacts[i];
-    double gap = c.gap;
-    for (; i < island.contacts.size() && island.contacts[i].body_a == c.body_a &&
-           island.contacts[i].body_b == c.body_b;
-         ++i)  // contacts of a pair stand together
-      gap = std::min(gap, island.contacts[i].gap);
-    const ca::PairPose pose(ca::Motion{moved[c.body_a]}, ca::Motion{moved[c.body_b]}, 0);
-    const double after =
-        hulls::model_distance(world.model_of(island.numbers[c.body_a]),
-                              world.model_of(island.numbers[c.body_b]), pose, world.tolerance, 0.5 * middle)
-            .lower;
-    if (after < 0.5 * std::min(gap, middle) && after < gap) return false;
-  }
-  return true;
-}
+// Where velocities are mended, a change that moves nothing by this part of the envelope matters to no other
+// row.
+constexpr double kEnough = 0.05;
 
-// The bodies after they have gone on for so long with their velocities; the velocities stay.
-std::vector<RigidBody> displaced(const std::vector<RigidBody>& bodies, const std::vector<RigidBody>& by,
-                                 double share) {
-  std::vector<RigidBody> moved = bodies;
-  for (std::size_t k = 0; k < moved.size(); ++k) {
-    if (moved[k].is_static()) continue;
-    moved[k].position += share * by[k].velocity;
-    const double angle = share * by[k].spin.norm();
-    if (angle > 0)
-      moved[k].orientation =
-          (Quat(Eigen::AngleAxisd(angle, by[k].spin.normalized())) * moved[k].orientation).normalized();
-  }
-  return moved;
-}
+// A way is good if every gap stays above this part of the envelope, or half of what it was.
+// By so much more than it lacks at the time of a way's nearest point its end is moved, at most.
+constexpr double kMostLift = 4;
 
-void steer_island(world::World& world, const Island& island, double envelope, IslandSolver& solver,
-                  Steering& steering) {
-  const double middle = 0.5 * envelope;
-  // Displacements are velocities for one unit of time, from rest. A gap may shrink by what it has above the
-  // middle; one below it must grow.
-  std::vector<RigidBody> by = island.bodies;
-  for (RigidBody& body : by) body.velocity = body.spin = Vec3::Zero();
-  std::vector<double> impulses(island.contacts.size(), 0), allowed;
-  for (const lcp::Contact& contact : island.contacts)
-    allowed.push_back(contact.gap < middle ? -kSteerShare * (middle - contact.gap) : contact.gap - middle);
-  IslandOptions rough;
-  rough.residual = rough.accepted = kSteerResidual;
-  if (!solver.solve(by, island.contacts, allowed, impulses, rough).solved) return;
+constexpr double kFloor = 1.0 / 64;
 
-  double most = 0;
-  for (std::size_t k = 0; k < by.size(); ++k)
-    most = std::max(most, by[k].velocity.norm() + island.reaches[k] * by[k].spin.norm());
-  double share = most > kMostSteered * envelope ? kMostSteered * envelope / most : 1;
-  for (const lcp::Contact& contact : island.contacts) {
-    const double lost = -lcp::contact_velocity(by, contact) - std::max(0.0, contact.gap - middle);
-    if (lost > 0) share = std::min(share, std::max(0.0, kMostLost * contact.gap / lost));
-  }
-  // The rows are straight, the bodies turn: look at every pair, and go half as far until no gap has lost more
-  // than half.
-  for (int halvings = 0; halvings < kMostHalvings && share > 0; ++halvings, share *= 0.5) {
-    const std::vector<RigidBody> moved = displaced(island.bodies, by, share);
-    if (!keeps_gaps(world, island, moved, middle)) continue;
-    steering.way = std::max(steering.way, share * most);
-    for (std::size_t k = 0; k < by.size(); ++k) {
-      if (by[k].velocity.isZero(0) && by[k].spin.isZero(0)) continue;
-      if (world.effects.gravity)
-        steering.energy -= share * by[k].mass * world.effects.gravity->dot(by[k].velocity);
-      world.set_course(island.numbers[k], moved[k], 0);
-    }
-    return;
-  }
-}
+constexpr int kMostRounds = 4;  // in which ways are mended
 
 }  // namespace
 
-Steering steer(world::World& world, Shell& shell, IslandSolver& solver) {
-  Steering steering;
-  const double low = kNearMiddle * 0.5 * shell.envelope();
-  const auto is_low = [&](int i) { return shell.contacts()[i].contact.gap < low; };
-  shell.find(world);
-  const std::vector<char> all(shell.contacts().size(), 1);
-  std::vector<int> place(world.bodies.size(), -1);
-  for (const std::vector<int>& members : islands_of(world, shell.contacts(), all))
-    if (std::any_of(members.begin(), members.end(), is_low))
-      steer_island(world, Island(world, shell.contacts(), members, place), shell.envelope(), solver,
-                   steering);
-  return steering;
+void Resting::follow(const world::World& world, int body) {
+  tracks_[at(body)] = track_of(world, body, shell_.poses()[at(body)], dt_);
+  sweeps_[at(body)] = {tracks_[at(body)].end.position, tracks_[at(body)].spin_rate * dt_};
+  changed_[at(body)] = 1;
+}
+
+// By how much a gap may shrink (m), to put gaps right; negative: by how much it must grow.
+double Resting::slack(double gap) const {
+  const double envelope = shell_.envelope(), middle = 0.5 * envelope;
+  if (gap >= kNearMiddle * middle) return std::max(0.0, gap - middle);
+  return -std::max(kSteerShare * (middle - gap), kLeastGap * envelope - gap);
+}
+
+void Resting::steer(world::World& world, RestReport& report) {
+  const std::vector<ShellContact>& shell = shell_.contacts();
+  const std::size_t known = end_gaps_.size();
+  end_gaps_.resize(shell.size());
+  for (std::size_t i = 0; i < shell.size(); ++i) {
+    const lcp::Contact& c = shell[i].contact;
+    if (i >= known || changed_[at(c.body_a)] || changed_[at(c.body_b)])
+      end_gaps_[i] = shell[i].gap_at(tracks_[at(c.body_a)].end, tracks_[at(c.body_b)].end) - shell[i].lift;
+  }
+  for (const std::vector<int>& members : islands_of(world, shell, taken_))
+    if (std::any_of(members.begin(), members.end(), [&](int i) { return slack(end_gaps_[at(i)]) < 0; }))
+      steer_island(world, members, report);
+  if (crowd_.rows() > 0) steer_crowd(world, report);
+}
+
+// Displacements are velocities for one unit of time, from rest. A gap may shrink by what it has above the
+// middle; one below it must grow.
+void Resting::steer_island(world::World& world, const std::vector<int>& members, RestReport& report) {
+  const double envelope = shell_.envelope();
+  Island island(start_, shell_.contacts(), members, place_);
+  for (RigidBody& body : island.bodies) body.velocity = body.spin = Vec3::Zero();
+  allowed_.clear();
+  for (const int i : members) allowed_.push_back(slack(end_gaps_[at(i)]));
+  impulses_.assign(members.size(), 0);
+  IslandOptions rough;
+  rough.residual = kSteerResidual;
+  rough.accepted = 1;
+  rough.most_sweeps = 50;
+  const IslandResult result = solver_.solve(island.bodies, island.contacts, allowed_, impulses_, rough);
+  report.steering_sweeps += result.sweeps;
+  if (!result.solved) return;
+  double most = 0;
+  for (std::size_t k = 0; k < island.bodies.size(); ++k)
+    most = std::max(most, island.bodies[k].velocity.norm() +
+                              tracks_[at(island.numbers[k])].reach * island.bodies[k].spin.norm());
+  const double share = most > kMostSteered * envelope ? kMostSteered * envelope / most : 1;
+  for (std::size_t k = 0; k < island.bodies.size(); ++k) {
+    const RigidBody& by = island.bodies[k];
+    if (by.is_static() || (by.velocity.isZero(0) && by.spin.isZero(0))) continue;
+    world::Body& body = world.bodies[island.numbers[k]];
+    if (!body.steered) body.steer_velocity = body.steer_spin = Vec3::Zero();
+    body.steered = true;
+    body.steer_velocity += share / dt_ * by.velocity;
+    body.steer_spin += share / dt_ * by.spin;
+    follow(world, island.numbers[k]);
+  }
+}
+
+// Whether this chapter answers for the pair, or chapter 4.
+bool Resting::concerns(const world::World& world, const ShellPair& pair) const {
+  if (!tracks_[at(pair.a)].moves && !tracks_[at(pair.b)].moves) return false;
+  if (crowded_[at(pair.a)] || crowded_[at(pair.b)]) return true;
+  if (!resting_[at(pair.a)] && !resting_[at(pair.b)]) return false;
+  if (world.restitution_of(pair.a, pair.b) == 0) return true;
+  for (const int body : {pair.a, pair.b})
+    if (world.yields(body) && !resting_[at(body)]) return false;
+  for (int i = pair.first; i < pair.first + pair.count; ++i)
+    if (!taken_[at(i)]) return false;
+  return true;
+}
+
+double Resting::need(const world::World& world, const ShellPair& pair) const {
+  const double floor = kFloor * shell_.envelope();
+  if (pair.gap >= 2 * floor) return floor;
+  if (pair.gap > kFloor * world.tolerance) return 0.5 * pair.gap;
+  // It started like this, touching: then it need only not become less, but for rounding.
+  const ca::PairPose pose(tracks_[at(pair.a)].start, tracks_[at(pair.b)].start);
+  return pair.gap -
+         64 * ca::rounding_term(world.model_of(pair.a).whole(), world.model_of(pair.b).whole(), pose);
+}
+
+// Proves the ways of all pairs that this chapter answers for, or mends them: where one is not clear the
+// contacts that it meets are added, and velocities or positions solved again.
+bool Resting::prove(world::World& world, RestReport& report) {
+  std::vector<std::pair<std::size_t, double>>& open = open_;
+  for (int round = 0;; ++round) {
+    shell_.extend(world, sweeps_);
+    take(world);
+    open.clear();
+    std::vector<ShellPair>& pairs = shell_.pairs();
+    for (std::size_t p = 0; p < pairs.size(); ++p) {
+      ShellPair& pair = pairs[p];
+      if (round == 0 || changed_[at(pair.a)] || changed_[at(pair.b)]) {
+        pair.proved = pair.open = false;
+        if (!concerns(world, pair)) continue;
+        ++report.checked;
+        const PathVerdict verdict =
+            check_path(world, shell_, pair, tracks_[at(pair.a)], tracks_[at(pair.b)], dt_, need(world, pair));
+        pair.proved = verdict.clear;
+        const bool event = pair.count == 0 && !crowded_[at(pair.a)] && !crowded_[at(pair.b)] &&
+                           world.restitution_of(pair.a, pair.b) > 0;
+        pair.open = !verdict.clear && !event;
+        pair.nearest_time = verdict.time;
+      }
+      if (pair.open) open.emplace_back(p, pair.nearest_time);
+    }
+    std::fill(changed_.begin(), changed_.end(), 0);
+    if (open.empty() || round == kMostRounds) break;
+    ++report.rounds;
+    std::vector<char> again(world.bodies.size(), 0);
+    bool solve_again = false;
+    std::vector<int> rows;  // of the crowd, new
+    for (const auto& [p, time] : open) {
+      const bool velocities = mend(world, pairs[p], time);
+      for (int i = pairs[p].first; i < pairs[p].first + pairs[p].count; ++i) {
+        if (row_[at(i)] >= 0)
+          rows.push_back(row_[at(i)]);
+        else
+          taken_[at(i)] = 1;
+      }
+      if (velocities) again[at(pairs[p].a)] = again[at(pairs[p].b)] = solve_again = true;
+    }
+    if (solve_again) {
+      for (const std::vector<int>& members : islands_of(world, shell_.contacts(), taken_)) {
+        const bool concerned = std::any_of(members.begin(), members.end(), [&](int i) {
+          const lcp::Contact& c = shell_.contacts()[at(i)].contact;
+          return (world.yields(c.body_a) && again[at(c.body_a)]) ||
+                 (world.yields(c.body_b) && again[at(c.body_b)]);
+        });
+        if (concerned) solve(world, members, report);
+      }
+    }
+    if (!rows.empty()) {
+      CrowdOptions rough = options_.crowded;
+      rough.enough = kEnough * shell_.envelope() / dt_;
+      crowd_.relax(rows, rough, report.sweeps);
+      move_touched(world);
+    }
+    steer(world, report);
+  }
+  return open.empty();
+}
+
+// The way is as good as it gets.
+void Resting::finish(world::World& world, RestReport& report) {
+  if (!open_.empty()) stop_crowd(world, open_, report);
+  for (const world::Body& body : world.bodies) {
+    if (!body.steered) continue;
+    const double reach = world.shapes[body.shape].reach;
+    report.steered =
+        std::max(report.steered, dt_ * (body.steer_velocity.norm() + reach * body.steer_spin.norm()));
+    if (world.effects.gravity)
+      report.steering_energy -= dt_ * body.state.mass * world.effects.gravity->dot(body.steer_velocity);
+  }
+  for (int body = 0; body < static_cast<int>(crowded_.size()); ++body)
+    world.bodies[body].foreseen = crowded_[at(body)];
+  world.proved.clear();
+  for (const ShellPair& pair : shell_.pairs())
+    if (pair.proved && !crowded_[at(pair.a)] && !crowded_[at(pair.b)])
+      world.proved.emplace_back(pair.a, pair.b);
+}
+
+// New contacts for the pair, where its bodies come too near; whether velocities have to know.
+bool Resting::mend(world::World& world, ShellPair& pair, double time) {
+  const bool known = pair.count > 0;
+  const Track &a = tracks_[at(pair.a)], &b = tracks_[at(pair.b)];
+  const double gap = shell_.search_at(world, pair, a.end, b.end);
+  const bool overlaps = !(gap > 0);
+  double gap_there = gap;
+  const bool between = gap >= need(world, pair);  // it is on the way that they come too near
+  if (overlaps || between) {
+    const ca::Motion motion_a = world.motion(pair.a, 0), motion_b = world.motion(pair.b, 0);
+    gap_there = shell_.search_at(world, pair, motion_a.pose_at(time), motion_b.pose_at(time));
+  }
+  const double fast = shell_.envelope() / dt_;
+  for (int i = pair.first; i < pair.first + pair.count; ++i) {
+    ShellContact& c = shell_.contacts()[at(i)];
+    const double closing = -lcp::contact_velocity(start_, c.contact);
+    if (!known && c.contact.restitution > 0 && closing > fast)
+      c.bounce_next = c.contact.restitution * closing;
+    // What the way makes of the gap, to first order in velocities: it is the way that is mended.
+    const Vec3 velocity_a = a.velocity + a.spin.cross(c.contact.point - a.start.position),
+               velocity_b = b.velocity + b.spin.cross(c.contact.point - b.start.position);
+    if (between)
+      c.lift = std::max(0.0, kLeastGap * shell_.envelope() - gap_there) * std::min(dt_ / time, kMostLift);
+    c.contact.gap = c.gap_at(a.end, b.end) - dt_ * c.contact.normal.dot(velocity_b - velocity_a);
+  }
+  take(world);
+  return !known || overlaps;
+}
+
+// What could not be mended stays where it is for this frame, and whatever would then run into it.
+void Resting::stop_crowd(world::World& world, std::vector<std::pair<std::size_t, double>> open,
+                         RestReport& report) {
+  std::vector<ShellPair>& pairs = shell_.pairs();
+  while (!open.empty()) {
+    for (const auto& [p, time] : open)
+      for (const int body : {pairs[p].a, pairs[p].b}) {
+        if (!world.yields(body) || !crowded_[at(body)] || world.bodies[body].held) continue;
+        world.bodies[body].steered = false;
+        world.bodies[body].held = true;
+        ++report.stopped;
+        follow(world, body);
+      }
+    open.clear();
+    for (std::size_t p = 0; p < pairs.size(); ++p) {
+      ShellPair& pair = pairs[p];
+      if (!changed_[at(pair.a)] && !changed_[at(pair.b)]) continue;
+      pair.proved = false;
+      if (!concerns(world, pair)) continue;
+      pair.proved =
+          check_path(world, shell_, pair, tracks_[at(pair.a)], tracks_[at(pair.b)], dt_, need(world, pair))
+              .clear;
+      const bool held = (!world.yields(pair.a) || world.bodies[pair.a].held) &&
+                        (!world.yields(pair.b) || world.bodies[pair.b].held);
+      if (!pair.proved && !held && (crowded_[at(pair.a)] || crowded_[at(pair.b)])) open.emplace_back(p, 0.0);
+    }
+    std::fill(changed_.begin(), changed_.end(), 0);
+  }
 }
 
 }  // namespace fc::resting

@@ -34,7 +34,7 @@ struct Simulation {
     for (int frame = 0; frame < frames; ++frame) {
       last = resting.step(world, listeners);
       lost += last.step.lost_time;
-      steered += last.steering.energy;
+      steered += last.steering_energy;
       smallest_gap = std::min(smallest_gap, last.smallest_gap);
       residual = std::max(residual, last.step.lcp_residual);
     }

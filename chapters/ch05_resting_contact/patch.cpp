@@ -1,0 +1,253 @@
+#include "ch05_resting_contact/patch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace fc::resting {
+namespace {
+
+constexpr int kMostCorners = 64;       // of a face; more are thinned out
+constexpr double kSame = 1e-9;         // of both reaches: corners nearer than this are one
+constexpr double kParallel = 1e-3;     // sine of the angle between segments that lie along each other
+constexpr double kLeastFacing = 0.05;  // cosine of the angle up to which a face has a height along the normal
+
+// A corner of a polygon, projected: where it is in the plane, how high, and which two lines meet there.
+struct Corner {
+  double x, y, height;  // m
+  int line_in, line_out;
+};
+
+struct Polygon {
+  std::array<Corner, 2 * kMostCorners> corners;
+  int count = 0;
+  int face = 0;
+  void add(const Corner& corner) {
+    if (count < static_cast<int>(corners.size())) corners[static_cast<std::size_t>(count++)] = corner;
+  }
+};
+
+// The plane across the normal, and what lies in it.
+struct Frame {
+  Vec3 u, v, n;
+  explicit Frame(const Vec3& normal) : n(normal) {
+    u = (std::abs(n.x()) < 0.6 ? Vec3::UnitX() : Vec3::UnitY()).cross(n).normalized();
+    v = n.cross(u);
+  }
+  Vec3 at(double x, double y, double height) const { return x * u + y * v + height * n; }
+};
+
+int best_face(const Facets& facets, const Vec3& direction) {
+  int best = -1;
+  double most = -2;
+  for (int f = 0; f < facets.size(); ++f) {
+    const double along = facets.normals[static_cast<std::size_t>(f)].dot(direction);
+    if (along > most) {
+      most = along;
+      best = f;
+    }
+  }
+  return best;
+}
+
+// The face (or all vertices, of a segment or a point), seen along the normal; anticlockwise there.
+void project(const PatchSide& side, int face, const Mat3& rotation, const Vec3& offset, const Frame& frame,
+             bool reverse, Polygon& polygon) {
+  const auto& vertices = side.model.mesh.vertices;
+  const hulls::Lists& lists = side.facets.corners;
+  const int first = face < 0 ? 0 : lists.start[static_cast<std::size_t>(face)];
+  const int all =
+      face < 0 ? static_cast<int>(vertices.size()) : lists.start[static_cast<std::size_t>(face) + 1] - first;
+  const int step = (all + kMostCorners - 1) / kMostCorners;
+  polygon.count = 0;
+  polygon.face = face;
+  const int count = (all + step - 1) / step;
+  for (int k = 0; k < count; ++k) {
+    const int place = reverse ? count - 1 - k : k;
+    const int vertex = face < 0 ? place * step : lists.items[static_cast<std::size_t>(first + place * step)];
+    const Vec3 x = rotation * vertices[static_cast<std::size_t>(vertex)] + offset;
+    polygon.add({frame.u.dot(x), frame.v.dot(x), frame.n.dot(x), k == 0 ? count - 1 : k - 1, k});
+  }
+}
+
+// Cuts the subject by the line from p to q (number `line`); what is left of it stays (Sutherland, Hodgman).
+void cut(const Polygon& subject, const Corner& p, const Corner& q, int line, Polygon& result) {
+  const double dx = q.x - p.x, dy = q.y - p.y;
+  const auto inside = [&](const Corner& c) { return dx * (c.y - p.y) - dy * (c.x - p.x); };
+  result.count = 0;
+  if (subject.count == 0) return;
+  const bool closed = subject.count > 2;
+  for (int k = 0; k < subject.count; ++k) {
+    const Corner& from = subject.corners[static_cast<std::size_t>(k)];
+    const double here = inside(from);
+    if (here >= 0) result.add(from);
+    if (k + 1 == subject.count && !closed) break;
+    const Corner& to = subject.corners[static_cast<std::size_t>(k + 1 == subject.count ? 0 : k + 1)];
+    const double there = inside(to);
+    if ((here >= 0) == (there >= 0)) continue;
+    const double t = here / (here - there);
+    // The polygon goes on along the cutting line, and comes back from it.
+    const bool leaves = here >= 0;
+    result.add({from.x + t * (to.x - from.x), from.y + t * (to.y - from.y),
+                from.height + t * (to.height - from.height), leaves ? from.line_out : line,
+                leaves ? line : from.line_out});
+  }
+}
+
+// The height of a face's plane over a place.
+struct Plane {
+  double x, y, constant;
+  Plane(const Vec3& normal, const Corner& corner, const Frame& frame) {
+    const double along = normal.dot(frame.n);
+    const double size = std::abs(along) < kLeastFacing ? std::copysign(kLeastFacing, along) : along;
+    x = -normal.dot(frame.u) / size;
+    y = -normal.dot(frame.v) / size;
+    constant = corner.height - x * corner.x - y * corner.y;
+  }
+  double height(const Corner& c) const { return x * c.x + y * c.y + constant; }
+};
+
+}  // namespace
+
+Facets build_facets(const hulls::FeatureMesh& mesh) {
+  // Triangles across a flat edge belong to one face.
+  const int count = static_cast<int>(mesh.triangles.size());
+  std::vector<int> parent(static_cast<std::size_t>(count));
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](int t) {
+    while (parent[static_cast<std::size_t>(t)] != t) t = parent[static_cast<std::size_t>(t)];
+    return t;
+  };
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
+    const int first = mesh.edge_triangles.start[e], end = mesh.edge_triangles.start[e + 1];
+    for (int k = first; mesh.edges[e].flat && k < end; ++k)
+      parent[static_cast<std::size_t>(root(mesh.edge_triangles.items[static_cast<std::size_t>(k)]))] =
+          root(mesh.edge_triangles.items[static_cast<std::size_t>(first)]);
+  }
+  Facets facets;
+  for (int face = 0; face < count; ++face) {
+    if (root(face) != face) continue;
+    std::vector<int> corners;
+    for (int t = 0; t < count; ++t)
+      if (root(t) == face)
+        for (const int v : mesh.triangles[static_cast<std::size_t>(t)])
+          if (mesh.vertex_kind[static_cast<std::size_t>(v)] == hulls::Vertex::corner) corners.push_back(v);
+    std::sort(corners.begin(), corners.end());
+    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+    const Vec3 normal = mesh.normals[static_cast<std::size_t>(face)];
+    const Frame frame(normal);
+    Vec3 middle = Vec3::Zero();
+    for (const int v : corners)
+      middle += mesh.vertices[static_cast<std::size_t>(v)] / static_cast<double>(corners.size());
+    const auto angle = [&](int v) {
+      const Vec3 from = mesh.vertices[static_cast<std::size_t>(v)] - middle;
+      return std::atan2(frame.v.dot(from), frame.u.dot(from));
+    };
+    std::sort(corners.begin(), corners.end(), [&](int v, int w) { return angle(v) < angle(w); });
+    facets.normals.push_back(normal);
+    facets.corners.items.insert(facets.corners.items.end(), corners.begin(), corners.end());
+    facets.corners.start.push_back(static_cast<int>(facets.corners.items.size()));
+  }
+  return facets;
+}
+
+void find_patch(const PatchSide& a, const PatchSide& b, const ca::PairPose& pose,
+                const ca::GjkResult& nearest, double slack, double far, Patch& patch) {
+  patch.normal = nearest.normal;
+  patch.gap = nearest.lower;
+  patch.of_b = false;
+  patch.count = 0;
+  const Mat3 to_a = pose.rotation_a.transpose(), to_b = pose.rotation_b.transpose();
+  const int face_a = best_face(a.facets, to_a * nearest.normal);
+  const int face_b = best_face(b.facets, -(to_b * nearest.normal));
+  const ca::Convex core_a = a.model.leaf(0), core_b = b.model.leaf(0);
+  double best = nearest.lower - slack;
+  for (const bool of_b : {false, true}) {
+    const int face = of_b ? face_b : face_a;
+    if (face < 0) continue;
+    const Vec3 normal = of_b ? Vec3(-(pose.rotation_b * b.facets.normals[static_cast<std::size_t>(face)]))
+                             : Vec3(pose.rotation_a * a.facets.normals[static_cast<std::size_t>(face)]);
+    const double gap = ca::support_gap(core_a, core_b, pose, normal);
+    if (gap < best) continue;
+    best = gap;
+    patch.normal = normal;
+    patch.gap = gap;
+    patch.of_b = of_b;
+  }
+
+  const Frame frame(patch.normal);
+  const double radii = a.model.radius + b.model.radius;
+  const double same = kSame * (a.model.reach + b.model.reach);
+  const auto add = [&](const Vec3& core_point_a, const Vec3& core_point_b, double gap, std::uint64_t key) {
+    if (gap > far || patch.count == Patch::kMost) return;
+    PatchPoint point;
+    point.point_a = to_a * (core_point_a + a.model.radius * patch.normal);
+    point.point_b = to_b * (core_point_b - b.model.radius * patch.normal - pose.offset_world);
+    point.gap = gap;
+    point.key = key;
+    for (int i = 0; i < patch.count; ++i)
+      if ((patch.points[static_cast<std::size_t>(i)].point_a - point.point_a).squaredNorm() <= same * same)
+        return;
+    patch.points[static_cast<std::size_t>(patch.count++)] = point;
+  };
+
+  static thread_local Polygon first, second, shared, other;
+  project(a, face_a, pose.rotation_a, Vec3::Zero(), frame, false, first);
+  project(b, face_b, pose.rotation_b, pose.offset_world, frame, face_b >= 0, second);
+  double least = far;
+  // The one with fewer corners is cut by the other one's sides.
+  const bool swap = second.count < first.count;
+  const Polygon &subject = swap ? second : first, &cutter = swap ? first : second;
+  const PatchSide& cutting_side = swap ? a : b;
+  const int cutting_face = swap ? face_a : face_b;
+  if (cutter.count > 2) {
+    const Vec3 normal = (swap ? pose.rotation_a : pose.rotation_b) *
+                        cutting_side.facets.normals[static_cast<std::size_t>(cutting_face)];
+    const Plane plane(normal, cutter.corners[0], frame);
+    shared = subject;
+    for (int k = 0; k < cutter.count; ++k) {
+      cut(shared, cutter.corners[static_cast<std::size_t>(k)],
+          cutter.corners[static_cast<std::size_t>(k + 1 == cutter.count ? 0 : k + 1)], kMostCorners + k,
+          other);
+      std::swap(shared, other);
+    }
+    for (int k = 0; k < shared.count; ++k) {
+      const Corner& c = shared.corners[static_cast<std::size_t>(k)];
+      const double across = plane.height(c);
+      const double height_a = swap ? across : c.height, height_b = swap ? c.height : across;
+      const double gap = height_b - height_a - radii;
+      least = std::min(least, gap);
+      const auto bits = [](int value) { return static_cast<std::uint64_t>(value + 1) & 0xffff; };
+      add(frame.at(c.x, c.y, height_a), frame.at(c.x, c.y, height_b), gap,
+          bits(face_a) << 48 | bits(face_b) << 32 | bits(c.line_in) << 16 | bits(c.line_out));
+    }
+  } else if (first.count == 2 && second.count == 2) {
+    // Two segments that lie along each other: the ends of what they share.
+    const auto &p = first.corners, &q = second.corners;
+    const double dx = p[1].x - p[0].x, dy = p[1].y - p[0].y, length = std::hypot(dx, dy);
+    const double ex = q[1].x - q[0].x, ey = q[1].y - q[0].y;
+    if (length > 0 && std::abs(dx * ey - dy * ex) <= kParallel * length * std::hypot(ex, ey)) {
+      const auto along = [&](const Corner& c) {
+        return ((c.x - p[0].x) * dx + (c.y - p[0].y) * dy) / (length * length);
+      };
+      const double s0 = along(q[0]), s1 = along(q[1]);
+      const double from = std::max(0.0, std::min(s0, s1)), to = std::min(1.0, std::max(s0, s1));
+      for (const double s : {from, to}) {
+        if (from > to) break;
+        const double t = s1 != s0 ? (s - s0) / (s1 - s0) : 0;
+        const double height_a = p[0].height + s * (p[1].height - p[0].height);
+        const double height_b = q[0].height + t * (q[1].height - q[0].height);
+        const double gap = height_b - height_a - radii;
+        least = std::min(least, gap);
+        add(frame.at(p[0].x + s * dx, p[0].y + s * dy, height_a),
+            frame.at(p[0].x + s * dx, p[0].y + s * dy, height_b), gap, s == from ? 1 : 2);
+      }
+    }
+  }
+  if (patch.count == 0 || least > nearest.lower + slack)
+    add(nearest.point_a - a.model.radius * nearest.normal, nearest.point_b + b.model.radius * nearest.normal,
+        std::max(patch.gap, nearest.lower), 3);
+}
+
+}  // namespace fc::resting

@@ -1,0 +1,51 @@
+// The contact patch of two convex bodies: where their nearest faces lie over each other.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "ch02_hull_hierarchy/model_distance.hpp"
+
+namespace fc::resting {
+
+// The faces of a convex shape as polygons; a segment and a point have none.
+struct Facets {
+  hulls::Lists corners;       // vertices of each face, anticlockwise as seen from outside
+  std::vector<Vec3> normals;  // unit, outward, shape axes
+
+  int size() const { return static_cast<int>(normals.size()); }
+};
+
+Facets build_facets(const hulls::FeatureMesh& mesh);
+
+struct PatchPoint {
+  Vec3 point_a = Vec3::Zero(), point_b = Vec3::Zero();  // m, on the surfaces, each in its body's axes
+  double gap = 0;                                       // m, along the patch's normal
+  std::uint64_t key = 0;  // which edges meet there: the same point has the same key in the next frame
+};
+
+// Points at which two bodies face each other along one plane that separates them.
+struct Patch {
+  static constexpr int kMost = 24;
+  Vec3 normal = Vec3::UnitZ();  // unit, world, from A to B
+  bool of_b = false;            // the plane is a face of B; else it is one of A, or crosses two edges
+  double gap = 0;               // m, certified, along the normal
+  std::array<PatchPoint, kMost> points;
+  int count = 0;
+};
+
+// One body of the pair.
+struct PatchSide {
+  const hulls::Model& model;
+  const Facets& facets;
+};
+
+// The patch at a pose. The plane is the one that `nearest` found, or a face's, if that parts the bodies as
+// well up to `slack` (m): a face's normal is exact. Along it the two nearest faces are projected onto each
+// other, and the corners of what they share are the points; those with a gap above `far` (m) are left out.
+// What the faces do not show, the witness points of `nearest` do. A segment or a point counts as a face.
+void find_patch(const PatchSide& a, const PatchSide& b, const ca::PairPose& pose,
+                const ca::GjkResult& nearest, double slack, double far, Patch& patch);
+
+}  // namespace fc::resting

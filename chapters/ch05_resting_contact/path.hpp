@@ -1,0 +1,35 @@
+// Whether two bodies keep apart on their way through a frame.
+#pragma once
+
+#include "ch05_resting_contact/shell.hpp"
+
+namespace fc::resting {
+
+// A body on its way through a frame: the poses at both ends, and what its motion is like between them.
+struct Track {
+  Pose start, end;
+  Vec3 velocity = Vec3::Zero(), acceleration = Vec3::Zero(), spin = Vec3::Zero();  // m/s, m/s^2, rad/s
+  double spin_rate = 0, reach = 0;                                                 // rad/s, m
+  bool moves = false;
+  bool steady = true;  // constant acceleration, constant spin
+};
+
+Track track_of(const world::World& world, int body, const Pose& start, double dt);
+
+struct PathVerdict {
+  bool clear = false;
+  double time = 0;  // s, not clear: when the gap has come down to about `need`
+};
+
+// Whether the gap stays at least `need` (m) for dt seconds; proved, or found to be reached. In this order:
+//
+//   1. by the way     gap - dt |largest relative velocity of two points| >= need;
+//   2. by one plane   that turns with one of the bodies (or with none): if the gap along it is at least s at
+//                     both ends of the frame it is at least s - k dt^2/8 between them, where k bounds how
+//                     much the way of any point is bent, as seen by that body (the chord of a function whose
+//                     second derivative is at most k is never farther from it);
+//   3. by conservative advancement (chapter 2).
+PathVerdict check_path(const world::World& world, const Shell& shell, ShellPair& pair, const Track& a,
+                       const Track& b, double dt, double need);
+
+}  // namespace fc::resting
