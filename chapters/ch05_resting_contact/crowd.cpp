@@ -162,6 +162,11 @@ void Crowd::spread(const CrowdOptions& options, int& sweeps) {
       const double w = along(row, twists) + (kVelocity ? row.allowed : row.room);
       const double by = std::max(-impulse, -w * row.inverse_diagonal);
       if (by == 0) continue;
+      // Where rows contradict each other, displacements would grow from pass to pass.
+      if (!kVelocity && by > 0 &&
+          std::max(twists[at(row.a)].linear.squaredNorm(), twists[at(row.b)].linear.squaredNorm()) >
+              options.farthest * options.farthest)
+        continue;
       apply(row, by, twists);
       impulse += by;
       const bool matters = row.diagonal * std::abs(by) > options.enough;

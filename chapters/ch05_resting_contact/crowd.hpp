@@ -13,6 +13,7 @@ struct CrowdOptions {
   double residual = 1e-3;  // at which it is done, scale-free as in chapter 3
   double enough = 1e-4;    // m/s (or m): a change that is smaller goes on to no other row
   int most_passes = 60;    // of a local one
+  double farthest = 1;     // m: a body that was displaced by so much is not pushed on
 };
 
 // Velocities of bodies and impulses of rows, and beside them displacements that put gaps right: the same

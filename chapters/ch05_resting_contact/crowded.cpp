@@ -80,6 +80,7 @@ void Resting::steer_crowd(world::World& world, RestReport& report) {
   for (int row = 0; row < crowd_.rows(); ++row) slacks_[at(row)] = slack(end_gaps_[at(contact_of_[at(row)])]);
   CrowdOptions rough = options_.crowded;
   rough.enough = 0.02 * shell_.envelope();
+  rough.farthest = kMostSteered * shell_.envelope();
   crowd_.displace(slacks_, rough, report.steering_sweeps);
   move_touched(world);
 }

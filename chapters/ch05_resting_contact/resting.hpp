@@ -57,6 +57,7 @@ class Resting {
     int level;
   };
   static constexpr int kMostHalvings = 4;
+  static constexpr double kMostSteered = 2;  // of the envelope: no body is displaced by more
   void advance(world::World& world, const Part& part, const world::Listeners& listeners, RestReport& report);
   void begin(world::World& world, const Part& part);
   void find_crowds(const world::World& world);

@@ -9,7 +9,7 @@ namespace {
 
 // Of what a gap lacks to half the envelope, so much is made up in a frame; below the second part of the
 // envelope all of it. No point of a body is moved by more than the third part: the list of pairs knows.
-constexpr double kSteerShare = 0.2, kLeastGap = 0.25, kMostSteered = 2;
+constexpr double kSteerShare = 0.2, kLeastGap = 0.25;
 
 constexpr double kNearMiddle = 1 - 1e-3;  // of the middle: a gap above it is let be
 constexpr double kSteerResidual = 1e-3;   // positions need no more: the way is proved afterwards
