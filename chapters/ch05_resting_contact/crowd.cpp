@@ -7,13 +7,16 @@
 namespace fc::resting {
 namespace {
 
+constexpr int kAllRowsEvery = 8;  // sweeps
+
 std::size_t at(int index) {
   return static_cast<std::size_t>(index);
 }
 
 }  // namespace
 
-void Crowd::begin(std::span<const RigidBody> bodies) {
+void Crowd::begin(std::span<const RigidBody> bodies, std::span<const double> reaches) {
+  reaches_.assign(reaches.begin(), reaches.end());
   rows_.clear();
   turns_.clear();
   inverse_masses_.clear();
@@ -114,20 +117,30 @@ double Crowd::solve(const CrowdOptions& options, int& sweeps) {
   }
   for (Row& row : rows_) row.impulse *= share;
 
-  double worst = 0;
+  // Most rows push nothing and will not: between sweeps over all of them, only those that may.
+  const double near = options.near * scale_;
   for (int sweep = 0; sweep < options.most_sweeps; ++sweep) {
     ++sweeps;
-    worst = 0;  // what each row lacked when its turn came
-    for (Row& row : rows_) {
+    double worst = 0;  // what each row lacked when its turn came
+    const auto visit = [&](Row& row) {
       const double w = along(row, velocities_) + row.allowed;
       const double by = std::max(-row.impulse, -w * row.inverse_diagonal);
-      if (by == 0) continue;
+      if (by == 0) return w < near;
       apply(row, by, velocities_);
       row.impulse += by;
       worst = std::max(worst, row.diagonal * std::abs(by));
+      return true;
+    };
+    if (sweep % kAllRowsEvery == 0) {
+      waiting_.clear();
+      for (int r = 0; r < rows(); ++r)
+        if (visit(rows_[at(r)])) waiting_.push_back(r);
+    } else {
+      for (const int r : waiting_) visit(rows_[at(r)]);
     }
     if (worst <= options.residual * scale_) break;
   }
+  waiting_.clear();
   solved_ = true;
   return residual();
 }
@@ -152,6 +165,10 @@ void Crowd::join_rows() {
 template <bool kVelocity>
 void Crowd::spread(const CrowdOptions& options, int& sweeps) {
   std::vector<Twist>& twists = kVelocity ? velocities_ : displacements_;
+  const auto way = [&](int body) {
+    const Twist& twist = twists[at(body)];
+    return twist.linear.norm() + reaches_[at(body)] * twist.angular.norm();
+  };
   for (int pass = 0; pass < options.most_passes && !waiting_.empty(); ++pass) {
     ++sweeps;
     next_.clear();
@@ -163,10 +180,7 @@ void Crowd::spread(const CrowdOptions& options, int& sweeps) {
       const double by = std::max(-impulse, -w * row.inverse_diagonal);
       if (by == 0) continue;
       // Where rows contradict each other, displacements would grow from pass to pass.
-      if (!kVelocity && by > 0 &&
-          std::max(twists[at(row.a)].linear.squaredNorm(), twists[at(row.b)].linear.squaredNorm()) >
-              options.farthest * options.farthest)
-        continue;
+      if (!kVelocity && by > 0 && std::max(way(row.a), way(row.b)) > options.farthest) continue;
       apply(row, by, twists);
       impulse += by;
       const bool matters = row.diagonal * std::abs(by) > options.enough;

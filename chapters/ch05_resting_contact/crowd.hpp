@@ -12,6 +12,7 @@ struct CrowdOptions {
   int most_sweeps = 30;    // of a whole solution
   double residual = 1e-3;  // at which it is done, scale-free as in chapter 3
   double enough = 1e-4;    // m/s (or m): a change that is smaller goes on to no other row
+  double near = 0.02;      // of the largest velocity: a row that closes in slower than this may come to push
   int most_passes = 60;    // of a local one
   double farthest = 1;     // m: a body that was displaced by so much is not pushed on
 };
@@ -30,7 +31,8 @@ class Crowd {
   };
 
   // Starts anew, with bodies as they are at the frame's start: their velocities are v_0.
-  void begin(std::span<const RigidBody> bodies);
+  // `reaches`: m, of the bodies' points from their centres.
+  void begin(std::span<const RigidBody> bodies, std::span<const double> reaches);
   // A row; returns its number. `impulse` is a guess, for solve(); after that it acts at once.
   int add(const lcp::Contact& contact, double allowed, double impulse);
   // Takes a row out: its impulse is taken back.
@@ -47,6 +49,14 @@ class Crowd {
   // than it does with the displacements that there are.
   void displace(std::span<const double> slack, const CrowdOptions& options, int& sweeps);
 
+  // Calls visit(row) for each row of the body.
+  template <class Visit>
+  void rows_of(int body, Visit&& visit) {
+    join_rows();
+    for (int k = start_of_[static_cast<std::size_t>(body)]; k < start_of_[static_cast<std::size_t>(body) + 1];
+         ++k)
+      visit(row_of_[static_cast<std::size_t>(k)]);
+  }
   double impulse(int row) const { return rows_[static_cast<std::size_t>(row)].impulse; }
   double speed(int row) const { return along(rows_[static_cast<std::size_t>(row)], velocities_); }  // m/s
   const Twist& velocity(int body) const { return velocities_[static_cast<std::size_t>(body)]; }
@@ -74,7 +84,7 @@ class Crowd {
 
   std::vector<Row> rows_;
   std::vector<Mat3> turns_;
-  std::vector<double> inverse_masses_;
+  std::vector<double> inverse_masses_, reaches_;
   std::vector<Vec3> places_;
   std::vector<Twist> velocities_, displacements_;
   std::vector<int> start_of_,

@@ -11,6 +11,10 @@ namespace {
 // are not more exact than that.
 constexpr double kStillCrowd = 1e-3;
 
+// Of the envelope: in a crowd a gap may shrink to this, and is brought back to it, so that what pushes one
+// gap does not push all.
+constexpr double kLowInCrowd = 0.35;
+
 }  // namespace
 
 void Resting::add_row(int contact) {
@@ -34,33 +38,32 @@ void Resting::solve_crowd(world::World& world, RestReport& report) {
     const Crowd::Twist& twist = crowd_.velocity(body);
     fastest = std::max(fastest, dt_ * (twist.linear.norm() + tracks_[at(body)].reach * twist.angular.norm()));
   }
-  mark_pushed(world);
   for (int body = 0; body < static_cast<int>(crowded_.size()); ++body)
     if (crowded_[at(body)]) move_in_crowd(world, body, fastest < kStillCrowd * shell_.envelope());
   report.step.lcp_ns += watch.ns();
 }
 
-// Which bodies of the crowd have an impulse (1), and which one that carries them (2).
-void Resting::mark_pushed(const world::World& world) {
+// Whether the body has an impulse (1), and one that carries it (2).
+int Resting::pushed(const world::World& world, int body) {
   const Vec3 gravity = world.effects.gravity.value_or(Vec3(Vec3::Zero()));
-  pushed_.assign(world.bodies.size(), 0);
-  for (int row = 0; row < crowd_.rows(); ++row) {
-    if (!(crowd_.impulse(row) > 0)) continue;
+  int how = 0;
+  crowd_.rows_of(body, [&](int row) {
+    if (how == 2 || !(crowd_.impulse(row) > 0)) return;
     const lcp::Contact& c = shell_.contacts()[at(contact_of_[at(row)])].contact;
-    const char how = world::bears_weight(c.normal, gravity) ? 2 : 1;
-    for (const int body : {c.body_a, c.body_b}) pushed_[at(body)] = std::max(pushed_[at(body)], how);
-  }
+    how = world::bears_weight(c.normal, gravity) ? 2 : 1;
+  });
+  return how;
 }
 
 // The body's way as the crowd's rows have it now.
 void Resting::move_in_crowd(world::World& world, int number, bool stands) {
-  const char pushed = pushed_[at(number)];
+  const int how = pushed(world, number);
   RigidBody state = start_[at(number)];
   const Crowd::Twist &velocity = crowd_.velocity(number), &displacement = crowd_.displacement(number);
-  const bool still = stands && pushed == 2;
+  const bool still = stands && how == 2;
   state.velocity = still ? Vec3(Vec3::Zero()) : velocity.linear;
   state.spin = still ? Vec3(Vec3::Zero()) : velocity.angular;
-  take_course(world, number, pushed > 0, pushed == 2, state);
+  take_course(world, number, how > 0, how == 2, state);
   world::Body& body = world.bodies[number];
   body.steered = !displacement.linear.isZero(0) || !displacement.angular.isZero(0);
   body.steer_velocity = displacement.linear / dt_;
@@ -71,15 +74,18 @@ void Resting::move_in_crowd(world::World& world, int number, bool stands) {
 void Resting::move_touched(world::World& world) {
   const std::vector<int> touched = crowd_.take_touched();
   if (touched.empty()) return;
-  mark_pushed(world);
   for (const int body : touched) move_in_crowd(world, body, false);
 }
 
 void Resting::steer_crowd(world::World& world, RestReport& report) {
   slacks_.resize(at(crowd_.rows()));
-  for (int row = 0; row < crowd_.rows(); ++row) slacks_[at(row)] = slack(end_gaps_[at(contact_of_[at(row)])]);
+  for (int row = 0; row < crowd_.rows(); ++row) {
+    const double gap = end_gaps_[at(contact_of_[at(row)])], low = kLowInCrowd * shell_.envelope();
+    slacks_[at(row)] = gap >= low ? gap - low : -std::min(low - gap, shell_.envelope());
+  }
   CrowdOptions rough = options_.crowded;
-  rough.enough = 0.02 * shell_.envelope();
+  rough.enough = 0.05 * shell_.envelope();
+  rough.most_passes = 20;
   rough.farthest = kMostSteered * shell_.envelope();
   crowd_.displace(slacks_, rough, report.steering_sweeps);
   move_touched(world);

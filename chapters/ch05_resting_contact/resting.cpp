@@ -149,7 +149,9 @@ void Resting::begin(world::World& world, const Part& part) {
   row_.clear();
   end_gaps_.clear();
   contact_of_.clear();
-  crowd_.begin(start_);
+  reaches_.clear();
+  for (const world::Body& body : world.bodies) reaches_.push_back(world.shapes[body.shape].reach);
+  crowd_.begin(start_, reaches_);
 }
 
 // Bodies that are near each other, over others if need be, with more rows than are solved exactly.

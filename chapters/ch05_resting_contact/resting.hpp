@@ -68,7 +68,7 @@ class Resting {
   void add_row(int contact);
   double allowed(ShellContact& contact) const;
   void move_in_crowd(world::World& world, int body, bool stands);
-  void mark_pushed(const world::World& world);
+  int pushed(const world::World& world, int body);
   void move_touched(world::World& world);
   double slack(double gap) const;
   void steer_crowd(world::World& world, RestReport& report);
@@ -110,8 +110,7 @@ class Resting {
   std::vector<int> row_;
   std::vector<int> contact_of_;  // of each of the crowd's rows
   std::vector<double> end_gaps_;
-  std::vector<char> pushed_;  // of each body of the crowd: see mark_pushed()
-  std::vector<double> slacks_;
+  std::vector<double> slacks_, reaches_;
   // Room for an island.
   std::vector<int> place_;
   std::vector<double> allowed_, impulses_;

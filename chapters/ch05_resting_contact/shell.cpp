@@ -12,7 +12,7 @@ namespace {
 // Parts of the envelope: by how much two bodies may have moved against each other before their contacts are
 // searched again; by how much a face's plane may tell less than the best one and still be taken; how wide a
 // gap may be at a point of a patch.
-constexpr double kSearchAgain = 1.0 / 4, kSlack = 1.0 / 64, kFar = 8;
+constexpr double kSearchAgain = 1.0 / 4, kSlack = 1.0 / 64, kFar = 4;
 
 // How rough the distance of meshes may be that are not in each other's shell, and how far it is asked for.
 constexpr double kRough = 0.5, kNever = std::numeric_limits<double>::infinity();
