@@ -7,7 +7,8 @@
 namespace fc::resting {
 namespace {
 
-constexpr int kAllRowsEvery = 8;  // sweeps
+constexpr int kAllRowsEvery = 16;  // sweeps
+constexpr int kPlainSweeps = 3;    // at the end, without conjugate directions
 
 std::size_t at(int index) {
   return static_cast<std::size_t>(index);
@@ -56,7 +57,7 @@ int Crowd::add(const lcp::Contact& c, double allowed, double impulse) {
   row.inverse_diagonal = 1 / row.diagonal;
   row.allowed = allowed;
   row.impulse = impulse;
-  row.room = row.push = 0;
+  row.before = row.room = row.push = 0;
   rows_.push_back(row);
   if (solved_ && impulse > 0) apply(row, impulse, velocities_);
   start_of_.clear();
@@ -119,26 +120,60 @@ double Crowd::solve(const CrowdOptions& options, int& sweeps) {
 
   // Most rows push nothing and will not: between sweeps over all of them, only those that may.
   const double near = options.near * scale_;
+  direction_.assign(rows_.size(), 0);
+  direction_twists_.assign(velocities_.size(), {});
+  double last = 0;
   for (int sweep = 0; sweep < options.most_sweeps; ++sweep) {
     ++sweeps;
-    double worst = 0;  // what each row lacked when its turn came
-    const auto visit = [&](Row& row) {
+    double worst = 0, changed = 0;  // what each row lacked when its turn came; the sum of squares, weighted
+    before_ = velocities_;
+    const auto visit = [&](int r) {
+      Row& row = rows_[at(r)];
+      row.before = row.impulse;
       const double w = along(row, velocities_) + row.allowed;
       const double by = std::max(-row.impulse, -w * row.inverse_diagonal);
       if (by == 0) return w < near;
       apply(row, by, velocities_);
       row.impulse += by;
       worst = std::max(worst, row.diagonal * std::abs(by));
+      changed += row.diagonal * by * by;
       return true;
     };
-    if (sweep % kAllRowsEvery == 0) {
+    const bool all = sweep % kAllRowsEvery == 0;
+    if (all) {
       waiting_.clear();
       for (int r = 0; r < rows(); ++r)
-        if (visit(rows_[at(r)])) waiting_.push_back(r);
+        if (visit(r)) waiting_.push_back(r);
     } else {
-      for (const int r : waiting_) visit(rows_[at(r)]);
+      for (const int r : waiting_) visit(r);
     }
     if (worst <= options.residual * scale_) break;
+    if (sweep + kPlainSweeps >= options.most_sweeps) continue;
+    // What a sweep changes is the gradient of conjugate gradients (Silcowitz, Niebe, Erleben 2010): the last
+    // direction is gone on with as far as Fletcher and Reeves say, or forgotten where that does not help.
+    double go_on = last > 0 ? changed / last : 0;
+    last = changed;
+    if (go_on > 1 || all) {  // where that does not help, and with other rows: anew
+      std::fill(direction_.begin(), direction_.end(), 0.0);
+      std::fill(direction_twists_.begin(), direction_twists_.end(), Twist{});
+      go_on = 0;
+    }
+    for (const int r : waiting_) {
+      Row& row = rows_[at(r)];
+      double& direction = direction_[at(r)];
+      const double step = row.impulse - row.before;
+      row.impulse += go_on * direction;
+      direction = go_on * direction + step;
+    }
+    for (std::size_t k = 0; k < velocities_.size(); ++k) {
+      Twist& direction = direction_twists_[k];
+      const Vec3 linear = velocities_[k].linear - before_[k].linear,
+                 angular = velocities_[k].angular - before_[k].angular;
+      velocities_[k].linear += go_on * direction.linear;
+      velocities_[k].angular += go_on * direction.angular;
+      direction.linear = go_on * direction.linear + linear;
+      direction.angular = go_on * direction.angular + angular;
+    }
   }
   waiting_.clear();
   solved_ = true;
@@ -169,6 +204,7 @@ void Crowd::spread(const CrowdOptions& options, int& sweeps) {
     const Twist& twist = twists[at(body)];
     return twist.linear.norm() + reaches_[at(body)] * twist.angular.norm();
   };
+  unsaid_.assign(twists.size(), 0);
   for (int pass = 0; pass < options.most_passes && !waiting_.empty(); ++pass) {
     ++sweeps;
     next_.clear();
@@ -183,10 +219,13 @@ void Crowd::spread(const CrowdOptions& options, int& sweeps) {
       if (!kVelocity && by > 0 && std::max(way(row.a), way(row.b)) > options.farthest) continue;
       apply(row, by, twists);
       impulse += by;
-      const bool matters = row.diagonal * std::abs(by) > options.enough;
       for (const int body : {row.a, row.b}) {
+        if (inverse_masses_[at(body)] == 0) continue;
         touch(body);
-        if (!matters || inverse_masses_[at(body)] == 0) continue;
+        double& unsaid = unsaid_[at(body)];  // what its other rows have not heard of yet
+        unsaid += row.diagonal * std::abs(by);
+        if (unsaid <= options.enough) continue;
+        unsaid = 0;
         for (int k = start_of_[at(body)]; k < start_of_[at(body) + 1]; ++k) {
           const int other = row_of_[at(k)];
           if (other == r || is_waiting_[at(other)]) continue;

@@ -9,9 +9,9 @@
 namespace fc::resting {
 
 struct CrowdOptions {
-  int most_sweeps = 30;    // of a whole solution
+  int most_sweeps = 40;    // of a whole solution
   double residual = 1e-3;  // at which it is done, scale-free as in chapter 3
-  double enough = 1e-4;    // m/s (or m): a change that is smaller goes on to no other row
+  double enough = 1e-4;    // m/s (or m): when a body has changed by so much its rows are looked at
   double near = 0.02;      // of the largest velocity: a row that closes in slower than this may come to push
   int most_passes = 60;    // of a local one
   double farthest = 1;     // m: a body that was displaced by so much is not pushed on
@@ -71,7 +71,7 @@ class Crowd {
     Vec3 turn_a, turn_b;        // 1/(kg m): I^-1 (r x n)
     double inverse_a, inverse_b;
     double diagonal, inverse_diagonal;
-    double allowed, impulse;
+    double allowed, impulse, before;
     double room, push;  // of displacements
     int a, b;           // a < 0: taken out
   };
@@ -84,9 +84,10 @@ class Crowd {
 
   std::vector<Row> rows_;
   std::vector<Mat3> turns_;
-  std::vector<double> inverse_masses_, reaches_;
+  std::vector<double> inverse_masses_, reaches_, unsaid_;
   std::vector<Vec3> places_;
-  std::vector<Twist> velocities_, displacements_;
+  std::vector<Twist> velocities_, displacements_, before_, direction_twists_;
+  std::vector<double> direction_;
   std::vector<int> start_of_,
       row_of_;                       // body i has the rows row_of_[start_of_[i]] ... before start_of_[i + 1]
   std::vector<int> waiting_, next_;  // rows

@@ -166,6 +166,7 @@ bool Resting::prove(world::World& world, RestReport& report) {
     if (!rows.empty()) {
       CrowdOptions rough = options_.crowded;
       rough.enough = kEnough * shell_.envelope() / dt_;
+      rough.most_passes = 8;
       crowd_.relax(rows, rough, report.sweeps);
       move_touched(world);
     }
