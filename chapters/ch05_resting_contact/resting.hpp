@@ -29,8 +29,9 @@ struct RestReport {
 };
 
 struct RestOptions {
-  int crowd = 400;           // rows of bodies that are near each other, beyond which they are a crowd
-  IslandOptions small = {};  // how islands are solved
+  int crowd = 400;  // rows of bodies that are near each other, beyond which they are a crowd
+  // How other islands are solved: with the rows that come in within a frame they may become larger.
+  IslandOptions small = {.most_dense_rows = 1000, .accepted = 1e-3};
   CrowdOptions crowded = {};
 };
 

@@ -57,12 +57,13 @@ Collider collider_of(const Shape& shape) {
 
 class BulletEngine : public Engine {
  public:
-  BulletEngine(const Scene& scene, const std::vector<Shape>& shapes, bool ccd)
+  BulletEngine(const Scene& scene, const std::vector<Shape>& shapes, bool ccd, int iterations)
       : dispatcher_(&configuration_), world_(&dispatcher_, &broadphase_, &solver_, &configuration_) {
     btGImpactCollisionAlgorithm::registerAlgorithm(&dispatcher_);
     const Vec3 gravity = scene.gravity.value_or(Vec3(Vec3::Zero()));
     world_.setGravity(vector(gravity));
     world_.getSolverInfo().m_restitutionVelocityThreshold = 0;
+    world_.getSolverInfo().m_numIterations = iterations;
     for (const Shape& shape : shapes) colliders_.push_back(collider_of(shape));
     for (const BodySpec& spec : scene.bodies) {
       const Shape& shape = shapes[static_cast<std::size_t>(spec.shape)];
@@ -127,8 +128,9 @@ class BulletEngine : public Engine {
 
 }  // namespace
 
-std::unique_ptr<Engine> make_bullet(const Scene& scene, const std::vector<Shape>& shapes, bool ccd) {
-  return std::make_unique<BulletEngine>(scene, shapes, ccd);
+std::unique_ptr<Engine> make_bullet(const Scene& scene, const std::vector<Shape>& shapes, bool ccd,
+                                    int iterations) {
+  return std::make_unique<BulletEngine>(scene, shapes, ccd, iterations);
 }
 
 }  // namespace fc::bench

@@ -24,7 +24,9 @@ class Engine {
 // Balls, blocks, hulls and meshes, without friction, damping or sleep; each with its own defaults for the
 // rest. `shapes` are those of the scene, built.
 std::unique_ptr<Engine> make_ours(const Scene& scene);
-std::unique_ptr<Engine> make_bullet(const Scene& scene, const std::vector<Shape>& shapes, bool ccd);
-std::unique_ptr<Engine> make_ode(const Scene& scene, const std::vector<Shape>& shapes);
+// `iterations`: of the solver; those given are the engines' own defaults.
+std::unique_ptr<Engine> make_bullet(const Scene& scene, const std::vector<Shape>& shapes, bool ccd,
+                                    int iterations = 10);
+std::unique_ptr<Engine> make_ode(const Scene& scene, const std::vector<Shape>& shapes, int iterations = 20);
 
 }  // namespace fc::bench

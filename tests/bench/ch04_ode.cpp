@@ -35,7 +35,7 @@ HullData hull_data(const TriangleMesh& core) {
 
 class OdeEngine : public Engine {
  public:
-  OdeEngine(const Scene& scene, const std::vector<Shape>& shapes) : shapes_(shapes) {
+  OdeEngine(const Scene& scene, const std::vector<Shape>& shapes, int iterations) : shapes_(shapes) {
     dInitODE2(0);
     world_ = dWorldCreate();
     space_ = dHashSpaceCreate(nullptr);
@@ -43,6 +43,7 @@ class OdeEngine : public Engine {
     const Vec3 gravity = scene.gravity.value_or(Vec3(Vec3::Zero()));
     dWorldSetGravity(world_, gravity.x(), gravity.y(), gravity.z());
     dWorldSetDamping(world_, 0, 0);
+    dWorldSetQuickStepNumIterations(world_, iterations);
     for (const BodySpec& spec : scene.bodies) {
       const Shape& shape = shapes[static_cast<std::size_t>(spec.shape)];
       const RigidBody start = make_body(shape, spec);
@@ -148,8 +149,8 @@ class OdeEngine : public Engine {
 
 }  // namespace
 
-std::unique_ptr<Engine> make_ode(const Scene& scene, const std::vector<Shape>& shapes) {
-  return std::make_unique<OdeEngine>(scene, shapes);
+std::unique_ptr<Engine> make_ode(const Scene& scene, const std::vector<Shape>& shapes, int iterations) {
+  return std::make_unique<OdeEngine>(scene, shapes, iterations);
 }
 
 }  // namespace fc::bench
