@@ -121,6 +121,7 @@ class Stepper {
     for (const int body : stopped) {
       world_.carry(body, now, now);
       world_.bodies[body].held = true;
+      world_.bodies[body].steered = false;
       world_.bodies[body].lies = lies;
     }
     new_courses(stopped, now);

@@ -103,10 +103,13 @@ void turn_on(double spin_drag, double elapsed, double& start, double& rate) {
 
 namespace {
 
-// With the velocities that its points have, those of steering included.
-RigidBody steered(const Body& body, RigidBody state) {
-  state.velocity += body.steer_velocity;
-  state.spin += body.steer_spin;
+// With the velocities that its points have: none if it is held, those of steering included.
+RigidBody as_it_moves(const Body& body, RigidBody state) {
+  if (body.held) state.velocity = state.spin = Vec3::Zero();
+  if (body.steered) {
+    state.velocity += body.steer_velocity;
+    state.spin += body.steer_spin;
+  }
   return state;
 }
 
@@ -114,9 +117,8 @@ RigidBody steered(const Body& body, RigidBody state) {
 
 ca::Motion World::motion(int body, double time) const {
   const Body& b = bodies[body];
-  RigidBody state = state_at(body, time);
-  if (b.held) state.velocity = state.spin = Vec3::Zero();
-  ca::Motion motion(b.steered && !b.held ? steered(b, state) : state);
+  const RigidBody state = state_at(body, time);
+  ca::Motion motion(as_it_moves(b, state));
   if (b.held || b.asleep || state.is_static()) return motion;
   add_effects(body, motion);
   if (b.free) turn_on(motion.spin_drag, time - b.time, motion.free_start, motion.free_rate);
@@ -148,14 +150,16 @@ RigidBody World::state_at(int body, double time) const {
   const double elapsed = time - bodies[body].time;
   if (elapsed == 0 || stays(body)) return state;
   const Body& b = bodies[body];
-  ca::Motion motion(b.steered ? steered(b, state) : state);
-  if (yields(body)) add_effects(body, motion);
+  ca::Motion motion(as_it_moves(b, state));
+  if (yields(body) && !b.held) add_effects(body, motion);
   state.position = motion.position_at(elapsed);
-  state.velocity = motion.velocity_at(elapsed);
-  state.spin = motion.spin_at(elapsed);
-  if (b.steered) {
-    state.velocity -= b.steer_velocity;
-    state.spin -= b.steer_spin;
+  if (!b.held) {
+    state.velocity = motion.velocity_at(elapsed);
+    state.spin = motion.spin_at(elapsed);
+    if (b.steered) {
+      state.velocity -= b.steer_velocity;
+      state.spin -= b.steer_spin;
+    }
   }
   if (motion.free) {
     state.orientation = Quat(motion.rotation_at(elapsed)).normalized();
@@ -193,9 +197,8 @@ ca::Motion World::course(int body, double time) const {
   ca::Motion path;
   path.position = b.state.position;
   if (stays(body)) return path;
-  path.velocity = b.state.velocity;
-  if (b.steered) path.velocity += b.steer_velocity;
-  if (yields(body)) add_forces(b, path);
+  path.velocity = as_it_moves(b, b.state).velocity;
+  if (yields(body) && !b.held) add_forces(b, path);
   const double elapsed = time - b.time;
   const Vec3 position = path.position_at(elapsed), velocity = path.velocity_at(elapsed);
   path.position = position;

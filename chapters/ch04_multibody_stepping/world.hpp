@@ -30,11 +30,11 @@ struct Body {
   bool was_held = false;   // until the end of the last frame
   bool supported = false;  // for this frame: what it lies on cancels gravity (chapter 5)
   bool lies = false;       // held, and on nothing that moves
-  bool foreseen = false;  // its way through the frame is proved, whatever comes near it (chapter 5)
+  bool foreseen = false;   // its way through the frame is proved, whatever comes near it (chapter 5)
   // Chapter 5: it is moved by this, too, until it takes a new course; no velocity knows of it.
   bool steered = false;
   Vec3 steer_velocity = Vec3::Zero(), steer_spin = Vec3::Zero();  // m/s, rad/s
-  double still = 0;        // s, how long it has lain without a break
+  double still = 0;                                               // s, how long it has lain without a break
   // With a gyroscopic effect: its rotation since the last impact, and where on it the body is at `time`.
   std::shared_ptr<const ca::TorqueFree> free;
   double free_start = 0, free_rate = 1;
@@ -63,7 +63,7 @@ struct World {
   double tolerance = 1e-6;                   // m; the scene's, or what rounding allows at least
   std::int64_t max_pairs = 1'000'000;        // of nodes, for one search; it then goes on from where it got to
   double touch = 0;  // m, how near is a contact when something is hit; no less than the tolerance (chapter 5)
-  double reserve = 0;  // m, half of which a pair has left when it is stopped; 0: the tolerance (chapter 5)
+  double reserve = 0;     // m, half of which a pair has left when it is stopped; 0: the tolerance (chapter 5)
   double rest_speed = 0;  // m/s, what comes in no faster does not bounce, and is then supported (chapter 5)
   // Pairs (a < b, in order) that are proved clear for the next frame as long as neither takes a new course
   // (chapter 5).
@@ -87,7 +87,7 @@ struct World {
   // Whether it stays where it is until the frame's end, if nothing hits it.
   bool stays(int body) const {
     const Body& b = bodies[body];
-    if (b.held || b.asleep) return true;
+    if ((b.held || b.asleep) && !b.steered) return true;
     const bool falls = !b.state.is_static() && effects.gravity && !b.supported;
     return !falls && !b.steered && b.state.velocity.isZero(0) && b.state.spin.isZero(0);
   }

@@ -263,6 +263,11 @@ void Crowd::displace(std::span<const double> slack, const CrowdOptions& options,
   spread<false>(options, sweeps);
 }
 
+void Crowd::forget_displacements() {
+  for (Twist& twist : displacements_) twist = {};
+  for (Row& row : rows_) row.push = 0;
+}
+
 std::vector<int> Crowd::take_touched() {
   for (const int body : touched_) is_touched_[at(body)] = 0;
   return std::exchange(touched_, {});

@@ -57,6 +57,8 @@ class Crowd {
          ++k)
       visit(row_of_[static_cast<std::size_t>(k)]);
   }
+  void forget_displacements();
+
   double impulse(int row) const { return rows_[static_cast<std::size_t>(row)].impulse; }
   double speed(int row) const { return along(rows_[static_cast<std::size_t>(row)], velocities_); }  // m/s
   const Twist& velocity(int body) const { return velocities_[static_cast<std::size_t>(body)]; }

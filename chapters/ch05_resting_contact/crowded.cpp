@@ -63,8 +63,10 @@ void Resting::move_in_crowd(world::World& world, int number, bool stands) {
   const bool still = stands && how == 2;
   state.velocity = still ? Vec3(Vec3::Zero()) : velocity.linear;
   state.spin = still ? Vec3(Vec3::Zero()) : velocity.angular;
-  take_course(world, number, how > 0, how == 2, state);
   world::Body& body = world.bodies[number];
+  const bool held = body.held;
+  take_course(world, number, how > 0, how == 2, state);
+  body.held = held;
   body.steered = !displacement.linear.isZero(0) || !displacement.angular.isZero(0);
   body.steer_velocity = displacement.linear / dt_;
   body.steer_spin = displacement.angular / dt_;

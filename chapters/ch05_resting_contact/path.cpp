@@ -19,6 +19,15 @@ double bend_seen_from(const Track& viewer, const Track& body, double dt) {
   return bend + w * w * (apart.norm() + dt * speed) + 2 * w * seen;
 }
 
+// The least that a function can be on [0, 1] that is `start` and `end` at its ends, and lies no more than
+// 4 sag x (1 - x) below the line between them.
+double least_between(double start, double end, double sag) {
+  const double slope = end - start - 4 * sag;  // at the start
+  if (slope >= 0) return start;
+  const double x = sag > 0 ? std::min(1.0, -slope / (8 * sag)) : 1.0;
+  return start + x * (slope + 4 * sag * x);
+}
+
 double bend_in_the_world(const Track& a, const Track& b) {
   return (b.acceleration - a.acceleration).norm() + a.spin_rate * a.spin_rate * a.reach +
          b.spin_rate * b.spin_rate * b.reach;
@@ -60,7 +69,7 @@ PathVerdict check_path(const world::World& world, const Shell& shell, ShellPair&
     pair.axis_known = true;
     if (pair.axis_gap >= need) {
       const double end = shell.axis_gap(world, pair, a.end, b.end);
-      if (std::min(pair.axis_gap, end) - (pair.of_b ? from_b() : from_a()) >= need) return {true, dt};
+      if (least_between(pair.axis_gap, end, pair.of_b ? from_b() : from_a()) >= need) return {true, dt};
     }
     // The best plane at the end, carried back by either body, or by none.
     const ca::PairPose at_start(a.start, b.start), at_end(a.end, b.end);
@@ -68,7 +77,7 @@ PathVerdict check_path(const world::World& world, const Shell& shell, ShellPair&
     if (nearest.lower >= need) {
       const ca::Convex core_a = world.model_of(pair.a).leaf(0), core_b = world.model_of(pair.b).leaf(0);
       const auto proves = [&](const Vec3& normal, double bend) {
-        return std::min(nearest.lower, ca::support_gap(core_a, core_b, at_start, normal)) - bend >= need;
+        return least_between(ca::support_gap(core_a, core_b, at_start, normal), nearest.lower, bend) >= need;
       };
       if (proves(nearest.normal, share * bend_in_the_world(a, b)) ||
           proves(a.start.rotation * (a.end.rotation.transpose() * nearest.normal), from_a()) ||

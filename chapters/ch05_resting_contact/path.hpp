@@ -24,10 +24,10 @@ struct PathVerdict {
 // Whether the gap stays at least `need` (m) for dt seconds; proved, or found to be reached. In this order:
 //
 //   1. by the way     gap - dt |largest relative velocity of two points| >= need;
-//   2. by one plane   that turns with one of the bodies (or with none): if the gap along it is at least s at
-//                     both ends of the frame it is at least s - k dt^2/8 between them, where k bounds how
-//                     much the way of any point is bent, as seen by that body (the chord of a function whose
-//                     second derivative is at most k is never farther from it);
+//   2. by one plane   that turns with one of the bodies (or with none): if the gap along it is s_0 and s_1
+//                     at the ends of the frame, then at the part x of it the gap is at least
+//                     (1 - x) s_0 + x s_1 - k dt^2 x (1 - x) / 2, where k bounds how much the way of any
+//                     point is bent, as seen by that body;
 //   3. by conservative advancement (chapter 2).
 PathVerdict check_path(const world::World& world, const Shell& shell, ShellPair& pair, const Track& a,
                        const Track& b, double dt, double need);

@@ -63,6 +63,7 @@ class Resting {
   void begin(world::World& world, const Part& part);
   void find_crowds(const world::World& world);
   bool is_crowded(const lcp::Contact& c) const { return crowded_[at(c.body_a)] || crowded_[at(c.body_b)]; }
+  bool is_crowded_pair(const ShellPair& pair) const { return crowded_[at(pair.a)] || crowded_[at(pair.b)]; }
   void take(const world::World& world);
   void solve(world::World& world, const std::vector<int>& members, RestReport& report);
   void solve_crowd(world::World& world, RestReport& report);
@@ -82,7 +83,7 @@ class Resting {
   bool prove(world::World& world, RestReport& report);
   void finish(world::World& world, RestReport& report);
   bool mend(world::World& world, ShellPair& pair, double time);
-  void stop_crowd(world::World& world, std::vector<std::pair<std::size_t, double>> open, RestReport& report);
+  void stop_crowd(world::World& world, RestReport& report);
   void tell(const world::World& world, const world::Listeners& listeners, RestReport& report);
   static void add(const world::StepReport& part, world::StepReport& all);
   static world::Listeners from(double start, const world::Listeners& listeners);

@@ -177,7 +177,9 @@ bool Resting::prove(world::World& world, RestReport& report) {
 
 // The way is as good as it gets.
 void Resting::finish(world::World& world, RestReport& report) {
-  if (!open_.empty()) stop_crowd(world, open_, report);
+  if (std::any_of(open_.begin(), open_.end(),
+                  [&](const auto& o) { return is_crowded_pair(shell_.pairs()[o.first]); }))
+    stop_crowd(world, report);
   for (const world::Body& body : world.bodies) {
     if (!body.steered) continue;
     const double reach = world.shapes[body.shape].reach;
@@ -223,34 +225,43 @@ bool Resting::mend(world::World& world, ShellPair& pair, double time) {
   return !known || overlaps;
 }
 
-// What could not be mended stays where it is for this frame, and whatever would then run into it.
-void Resting::stop_crowd(world::World& world, std::vector<std::pair<std::size_t, double>> open,
-                         RestReport& report) {
+// What could not be mended: the crowd stands still for this part of the frame, and only its gaps are put
+// right. Whoever cannot even do that is not moved at all, nor whoever would then run into it.
+void Resting::stop_crowd(world::World& world, RestReport& report) {
+  crowd_.forget_displacements();
+  for (int number = 0; number < static_cast<int>(crowded_.size()); ++number) {
+    if (!crowded_[at(number)]) continue;
+    world::Body& body = world.bodies[number];
+    body.held = true;
+    body.steered = false;
+    ++report.stopped;
+    follow(world, number);
+  }
+  steer(world, report);
+  std::fill(changed_.begin(), changed_.end(), 1);
   std::vector<ShellPair>& pairs = shell_.pairs();
-  while (!open.empty()) {
-    for (const auto& [p, time] : open)
-      for (const int body : {pairs[p].a, pairs[p].b}) {
-        if (!world.yields(body) || !crowded_[at(body)] || world.bodies[body].held) continue;
-        world.bodies[body].steered = false;
-        world.bodies[body].held = true;
-        ++report.stopped;
-        follow(world, body);
-      }
+  std::vector<std::size_t> open;
+  do {
     open.clear();
     for (std::size_t p = 0; p < pairs.size(); ++p) {
       ShellPair& pair = pairs[p];
       if (!changed_[at(pair.a)] && !changed_[at(pair.b)]) continue;
       pair.proved = false;
       if (!concerns(world, pair)) continue;
+      ++report.checked;
       pair.proved =
           check_path(world, shell_, pair, tracks_[at(pair.a)], tracks_[at(pair.b)], dt_, need(world, pair))
               .clear;
-      const bool held = (!world.yields(pair.a) || world.bodies[pair.a].held) &&
-                        (!world.yields(pair.b) || world.bodies[pair.b].held);
-      if (!pair.proved && !held && (crowded_[at(pair.a)] || crowded_[at(pair.b)])) open.emplace_back(p, 0.0);
+      if (!pair.proved && is_crowded_pair(pair)) open.push_back(p);
     }
     std::fill(changed_.begin(), changed_.end(), 0);
-  }
+    for (const std::size_t p : open)
+      for (const int number : {pairs[p].a, pairs[p].b}) {
+        if (!world.bodies[number].steered) continue;
+        world.bodies[number].steered = false;
+        follow(world, number);
+      }
+  } while (std::any_of(changed_.begin(), changed_.end(), [](char changed) { return changed != 0; }));
 }
 
 }  // namespace fc::resting
