@@ -25,7 +25,7 @@ int run(const Scene& scene, const RunContext& context, Summary& summary) {
   if (!scene.envelope)
     return world::run_scene(scene, context, summary, world::step);  // chapter 4, to the byte
   std::unique_ptr<resting::Resting> resting;
-  std::int64_t contacts = 0, sweeps = 0, searched = 0;
+  std::int64_t contacts = 0, sweeps = 0, searched = 0, stopped = 0, checked = 0;
   int largest = 0;
   double energy = 0, steered = 0;
   const int code = world::run_scene(scene, context, summary,
@@ -36,6 +36,8 @@ int run(const Scene& scene, const RunContext& context, Summary& summary) {
                                       contacts += report.shell_contacts;
                                       sweeps += report.sweeps;
                                       searched += report.searched;
+                                      stopped += report.stopped;
+                                      checked += report.checked;
                                       largest = std::max(largest, report.largest_island);
                                       energy += report.steering_energy;
                                       steered = std::max(steered, report.steered);
@@ -46,6 +48,8 @@ int run(const Scene& scene, const RunContext& context, Summary& summary) {
   summary.add("largest island", std::int64_t{largest}, "rows");
   summary.add("largest correction of a position in a frame", steered, "m");
   summary.add("potential energy added by corrections", energy, "J");
+  summary.counter("parts of frames that stood still (bodies)", stopped, 0);
+  summary.counter("ways of pairs that were proved", checked, 0);
   summary.counter("envelope (pairs whose contacts were searched)", searched, 0);
   summary.counter("sweeps of Gauss-Seidel", sweeps, 0);
   return code;
@@ -60,9 +64,8 @@ int main(int argc, char** argv) {
   chapter.purpose =
       "Moves rigid bodies that collide, rest, slide and stack, without friction. With the key `envelope`, "
       "contacts within that distance last from frame to frame; without it, everything is as in chapter 4. "
-      "First "
-      "form: large islands are solved by Gauss-Seidel to a residual of 1e-8, and cost more than in other "
-      "engines.";
+      "Crowds of more than 400 contact rows are solved to a residual that is told, and cost several times "
+      "what they cost in other engines; nothing overlaps.";
   chapter.example = "build/bin/ch05_resting_contact chapters/ch05_resting_contact/scenes/stack.yaml";
   chapter.explain = explain;
   chapter.run = run;
