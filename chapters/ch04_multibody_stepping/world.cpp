@@ -99,10 +99,6 @@ void turn_on(double spin_drag, double elapsed, double& start, double& rate) {
   if (spin_drag > 0) rate *= std::exp(-spin_drag * elapsed);
 }
 
-}  // namespace
-
-namespace {
-
 // With the velocities that its points have: none if it is held, those of steering included.
 RigidBody as_it_moves(const Body& body, RigidBody state) {
   if (body.held) state.velocity = state.spin = Vec3::Zero();

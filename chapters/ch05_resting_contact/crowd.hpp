@@ -31,8 +31,8 @@ class Crowd {
   };
 
   // Starts anew, with bodies as they are at the frame's start: their velocities are v_0.
-  // `reaches`: m, of the bodies' points from their centres.
-  void begin(std::span<const RigidBody> bodies, std::span<const double> reaches);
+  // `reaches`: m, of the bodies' points from their centres; only displace() asks.
+  void begin(std::span<const RigidBody> bodies, std::span<const double> reaches = {});
   // A row; returns its number. `impulse` is a guess, for solve(); after that it acts at once.
   int add(const lcp::Contact& contact, double allowed, double impulse);
   // Takes a row out: its impulse is taken back.

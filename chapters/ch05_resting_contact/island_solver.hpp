@@ -7,6 +7,7 @@
 
 #include "ch03_impulse_lcp/contact.hpp"
 #include "ch03_impulse_lcp/dantzig.hpp"
+#include "ch05_resting_contact/crowd.hpp"
 
 namespace fc::resting {
 
@@ -16,7 +17,6 @@ struct IslandOptions {
   double residual = 1e-8;  // at which Gauss-Seidel is done, scale-free as in chapter 3
   double accepted = 1e-5;  // with which it may end after the last sweep
   int most_sweeps = 1000;
-  int look_every = 4;  // sweeps between two looks at the residual
 };
 
 struct IslandResult {
@@ -42,28 +42,7 @@ class IslandSolver {
                             std::span<const double> allowed, std::span<double> z,
                             const IslandOptions& options);
 
-  // A contact as one sweep sees it.
-  struct Row {
-    Vec3 normal, arm_a, arm_b;    // m: r x n
-    Vec3 turn_a, turn_b;          // 1/(kg m): I^-1 (r x n)
-    double inverse_a, inverse_b;  // 1/kg
-    double diagonal, inverse_diagonal, allowed;
-    int a, b;
-  };
-  struct Twist {
-    Vec3 velocity, spin;
-  };
-  void build_rows(std::span<const RigidBody> bodies, std::span<const lcp::Contact> contacts,
-                  std::span<const double> allowed);
-  double speed(const Row& row) const;
-  void push(const Row& row, double impulse);
-  double sweep(std::span<double> z);
-  double residual(std::span<const double> z, double scale) const;
-
-  std::vector<Row> rows_;
-  std::vector<Mat3> turns_;
-  std::vector<Twist> twists_, twists_before_, along_;  // of the bodies; `along`: of the direction
-  std::vector<double> z_before_, direction_;
+  Crowd rows_;
   lcp::DantzigSolver dantzig_;
 };
 

@@ -32,13 +32,10 @@ RestReport Resting::step(world::World& world, const world::Listeners& listeners)
   const Stopwatch watch;
   RestReport report;
   report.step.min_gap = report.smallest_gap = std::numeric_limits<double>::infinity();
-  const int parts = 1 << halvings_;  // as many as the last frame would have needed, or half of that
+  const int level = halvings_, parts = 1 << level;  // as the last frame would have needed, or half of that
   halvings_ = std::max(0, halvings_ - 1);
-  for (int part = 0; part < parts; ++part) {
-    int level = 0;
-    while ((1 << level) < parts) ++level;
+  for (int part = 0; part < parts; ++part)
     advance(world, {frame_ / parts * part, frame_ / parts, level}, listeners, report);
-  }
   report.step.step_ns = watch.ns();
   report.step.ccd_ns = report.step.step_ns - report.step.lcp_ns;
   return report;

@@ -38,7 +38,7 @@ struct RestOptions {
 // Keeps what lasts from frame to frame.
 class Resting {
  public:
-  // Sets the world's rest_speed and touch. Throws as envelope_of().
+  // Sets the world's touch and reserve, and in each part of a frame its rest_speed. Throws as envelope_of().
   Resting(const Scene& scene, world::World& world, double dt, const RestOptions& options = {});
 
   // One frame of dt seconds. Guarantees of chapter 4's step hold: no gap ever becomes zero. A pair within the

@@ -8,7 +8,7 @@ namespace fc::resting {
 namespace {
 
 // Of what a gap lacks to half the envelope, so much is made up in a frame; below the second part of the
-// envelope all of it. No point of a body is moved by more than the third part: the list of pairs knows.
+// envelope all of it.
 constexpr double kSteerShare = 0.2, kLeastGap = 0.25;
 
 constexpr double kNearMiddle = 1 - 1e-3;  // of the middle: a gap above it is let be
@@ -18,10 +18,10 @@ constexpr double kSteerResidual = 1e-3;   // positions need no more: the way is 
 // row.
 constexpr double kEnough = 0.05;
 
-// A way is good if every gap stays above this part of the envelope, or half of what it was.
 // By so much more than it lacks at the time of a way's nearest point its end is moved, at most.
 constexpr double kMostLift = 4;
 
+// A way is good if every gap stays above this part of the envelope, or half of what it was.
 constexpr double kFloor = 1.0 / 64;
 
 constexpr int kMostRounds = 4;  // in which ways are mended
@@ -115,7 +115,7 @@ double Resting::need(const world::World& world, const ShellPair& pair) const {
 // Proves the ways of all pairs that this chapter answers for, or mends them: where one is not clear the
 // contacts that it meets are added, and velocities or positions solved again.
 bool Resting::prove(world::World& world, RestReport& report) {
-  std::vector<std::pair<std::size_t, double>>& open = open_;
+  auto& open = open_;
   for (int round = 0;; ++round) {
     shell_.extend(world, sweeps_);
     take(world);
