@@ -59,7 +59,7 @@ int Resting::pushed(const world::World& world, int body) {
 void Resting::move_in_crowd(world::World& world, int number, bool stands) {
   const int how = pushed(world, number);
   RigidBody state = start_[at(number)];
-  const Crowd::Twist &velocity = crowd_.velocity(number), &displacement = crowd_.displacement(number);
+  const Crowd::Twist velocity = crowd_.velocity(number), displacement = crowd_.displacement(number);
   const bool still = stands && how == 2;
   state.velocity = still ? Vec3(Vec3::Zero()) : velocity.linear;
   state.spin = still ? Vec3(Vec3::Zero()) : velocity.angular;

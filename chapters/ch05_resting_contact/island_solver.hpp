@@ -42,7 +42,7 @@ class IslandSolver {
                             std::span<const double> allowed, std::span<double> z,
                             const IslandOptions& options);
 
-  Crowd rows_;
+  Rows<double> rows_;
   lcp::DantzigSolver dantzig_;
 };
 

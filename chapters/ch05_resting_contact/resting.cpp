@@ -50,7 +50,7 @@ void Resting::advance(world::World& world, const Part& part, const world::Listen
     solve(world, members, report);                            // contacts that last
   solve_crowd(world, report);                                 // those of which there are too many
   steer(world, report);                                       // gaps
-  if (!prove(world, report) && part.level < kMostHalvings) {  // the way
+  if (!prove(world, report) && !put_back(world, report) && part.level < kMostHalvings) {  // the way
     world.bodies = saved_[at(part.level)];
     halvings_ = std::max(halvings_, part.level + 1);
     for (const double half : {0.0, 0.5 * part.length})

@@ -20,6 +20,7 @@ struct RestReport {
   std::int64_t checked = 0;             // ways of pairs through the frame that were to be proved
   int crowded = 0;                      // bodies in crowds: see Resting
   int rounds = 0;                       // in which velocities or ways were mended
+  int put_back = 0;                     // times that a body's way in a crowd was shortened
   int stopped = 0;                      // bodies of crowds whose way could not be mended
   int largest_island = 0;               // rows
   int sweeps = 0, steering_sweeps = 0;  // of Gauss-Seidel, all islands
@@ -81,6 +82,7 @@ class Resting {
   bool concerns(const world::World& world, const ShellPair& pair) const;
   double need(const world::World& world, const ShellPair& pair) const;
   bool prove(world::World& world, RestReport& report);
+  bool put_back(world::World& world, RestReport& report);
   void finish(world::World& world, RestReport& report);
   bool mend(world::World& world, ShellPair& pair, double time);
   void stop_crowd(world::World& world, RestReport& report);
@@ -106,6 +108,12 @@ class Resting {
   std::vector<char> crowded_, resting_, changed_;
   // Pairs whose way is not proved, and the time at which they come too near.
   std::vector<std::pair<std::size_t, double>> open_;
+  // Of bodies that are put back: their whole way in this part of the frame, and the share that is left.
+  struct FullWay {
+    double share = 1;
+    Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();  // m/s, rad/s
+  };
+  std::vector<FullWay> full_ways_;
   // For each contact of the shell: whether it is a row of this chapter, which one of the crowd (or -1); and
   // its gap at the frame's end.
   std::vector<char> taken_;
