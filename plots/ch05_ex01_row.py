@@ -23,7 +23,7 @@ def draw(run: Path) -> plt.Figure:
             label = None
     gap.axhline(2.5, color=GREY, ls=":", lw=1, label="the middle")
     gap.set(title="Gap", xlabel="t [s]", ylabel="gap [mm]")
-    energy.set(title="Kinetic energy", xlabel="t [s]", ylabel="energy [µJ]", yscale="symlog")
+    energy.set(title="Kinetic energy", xlabel="t [s]", ylabel="energy [µJ]", yscale="symlog", xlim=(0, 0.3))
     gap.legend(loc="upper right")
     return figure
 

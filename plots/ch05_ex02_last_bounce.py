@@ -25,7 +25,7 @@ def draw(run: Path) -> plt.Figure:
     rest.plot([], [], color=GREY, ls="", marker=".", label="the engine lies")
     count.set(title="Bounces that are events", xlabel="envelope [mm]", xscale="log")
     rest.set(title="At rest from", xlabel="envelope [mm]", ylabel="t [s]", xscale="log")
-    cut.set(title="Bouncing that is cut (dots: the widest)", xlabel="envelope [mm]", ylabel="[s]", xscale="log", yscale="log")
+    cut.set(title="Cut (dotted: the widest)", xlabel="envelope [mm]", ylabel="[s]", xscale="log", yscale="log")
     for axes in (count, rest, cut):
         axes.legend()
     return figure

@@ -104,7 +104,7 @@ TEST(Ex02LastBounce, WithHardlyAnyLoss) {
     const double width = 10 * (1 - 1.5 * loss) * 0.01;  // between the speeds of the touches 1 and 2
     const Ending got = ending(drop, width, 0.01);
     EXPECT_EQ(got.bounces, 2) << "loss " << loss;
-    EXPECT_NEAR(got.time, 1 + 2 + 2 - 6 * loss, 1e-12)
+    EXPECT_NEAR(got.time, 5 - 6 * loss + 2 * loss * loss, 1e-12)
         << "s: two arcs of hardly less than 2 s; loss " << loss;
     EXPECT_NEAR(got.cut * (1 - drop.restitution), 2, 1e-5) << "s: for 2 s / loss it would have gone on";
   }
