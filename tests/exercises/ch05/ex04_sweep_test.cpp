@@ -159,7 +159,7 @@ TEST(Ex04Sweep, ARowFromBelow) {
   Scene scene = stack(kCount, 1);
   scene.sweep_once();
   for (int k = 1; k <= kCount; ++k) {
-    const double left = k == 1 ? 0.5 : 1 - std::pow(0.5, k < kCount ? k : kCount - 1);
+    const double left = 1 - std::pow(0.5, std::min(k, kCount - 1));
     EXPECT_NEAR(scene.bodies[static_cast<std::size_t>(k)].velocity.z(), -left, 1e-14)
         << "m/s, body " << k
         << ": each contact halves the difference, and the next one changes its upper body";
