@@ -27,8 +27,9 @@ struct Steering {
 // (above the last box nothing pushes). `floor` false: the column is in the air. Then there is no row 0: the
 // first gap means nothing, y_0 = 0, and d_0 is free.
 //
-// Exact up to rounding (1e-12 of the sum of all |r|), with a cost that grows like the number of boxes, up to
-// 10^5 of them. `gravity`: m/s^2, >= 0, downwards. The energy is never negative, and zero in the air.
+// Exact up to rounding: displacements to 1e-12 of the sum of all |r|, pushes to that times the mass of all.
+// The cost grows like the number of boxes, up to 10^5 of them. `gravity`: m/s^2, >= 0, downwards. The energy
+// is never negative, and zero in the air.
 Steering steer(std::span<const Box> boxes, bool floor, double width, double share, double gravity);
 
 }  // namespace fc::exercises
