@@ -14,7 +14,6 @@ constexpr int kPlainSweeps = 3;    // at the end, without conjugate directions
 
 template <class Real>
 void Rows<Real>::begin(std::span<const RigidBody> bodies, std::span<const double> reaches) {
-  reaches_.assign(reaches.begin(), reaches.end());
   rows_.clear();
   lines_.clear();
   arms_.clear();
@@ -22,10 +21,12 @@ void Rows<Real>::begin(std::span<const RigidBody> bodies, std::span<const double
   places_.clear();
   starts_.clear();
   for (const RigidBody& body : bodies) {
-    Mass mass{body.inverse_mass, std::sqrt(body.inverse_mass), Mat3::Zero(), Mat3::Zero()};
+    Mass mass{body.inverse_mass, std::sqrt(body.inverse_mass), 0, Mat3::Zero(), Mat3::Zero()};
     if (!body.is_static()) {
       mass.turn = body.inverse_inertia_world();
       mass.turn_root = mass.turn.llt().matrixL();
+      const double reach = reaches.empty() ? 0 : reaches[masses_.size()];
+      mass.reach = static_cast<Real>(std::max(body.inverse_mass, reach * reach * mass.turn.norm()));
     }
     masses_.push_back(mass);
     places_.push_back(body.position);
@@ -203,19 +204,13 @@ void Rows<Real>::join_rows() {
     for (const int body : {rows_[at(r)].a, rows_[at(r)].b}) row_of_[at(next_[at(body)]++)] = r;
 }
 
-// Whether the body was displaced by more than that already.
-template <class Real>
-bool Rows<Real>::is_far(int body, double farthest) const {
-  const Twist twist = displacement(body);
-  const double reach = reaches_[at(body)], most = farthest * farthest;
-  return twist.linear.squaredNorm() > most || reach * reach * twist.angular.squaredNorm() > most;
-}
-
 template <class Real>
 template <bool kVelocity>
 void Rows<Real>::spread(const CrowdOptions& options, int& sweeps) {
   std::vector<Vec8>& y = kVelocity ? changes_ : displacements_;
   const auto enough = static_cast<Real>(options.enough);
+  const auto farthest = static_cast<Real>(options.farthest * options.farthest);
+  const auto is_far = [&](int body) { return y[at(body)].squaredNorm() * masses_[at(body)].reach > farthest; };
   unsaid_.assign(y.size(), 0);
   for (int pass = 0; pass < options.most_passes && !waiting_.empty(); ++pass) {
     ++sweeps;
@@ -229,8 +224,7 @@ void Rows<Real>::spread(const CrowdOptions& options, int& sweeps) {
       const Real by = std::max(-impulse, -w);
       if (by == 0) continue;
       // Where rows contradict each other, displacements would grow from pass to pass.
-      if (!kVelocity && by > 0 && (is_far(row.a, options.farthest) || is_far(row.b, options.farthest)))
-        continue;
+      if (!kVelocity && by > 0 && (is_far(row.a) || is_far(row.b))) continue;
       apply(line, row, by, y);
       impulse += by;
       for (const int body : {row.a, row.b}) {

@@ -89,6 +89,7 @@ class Rows {
   };
   struct Mass {
     double inverse, root;   // 1/kg, and its root
+    Real reach;             // m^2 by which no point goes farther, if L^-1 of the body's displacement is one
     Mat3 turn, turn_root;   // 1/(kg m^2), and L
   };
 
@@ -105,13 +106,11 @@ class Rows {
   void work_out(int body);
   template <bool kVelocity>
   void spread(const CrowdOptions& options, int& sweeps);
-  bool is_far(int body, double farthest) const;
 
   std::vector<Row> rows_;
   std::vector<Line> lines_;
   std::vector<Arms> arms_;
   std::vector<Mass> masses_;
-  std::vector<double> reaches_;
   std::vector<Vec3> places_;
   std::vector<Twist> starts_, velocities_;
   std::vector<Vec8> changes_, displacements_;  // of velocities, and of places: L^-1 of them

@@ -86,7 +86,7 @@ void Resting::steer_crowd(world::World& world, RestReport& report) {
     slacks_[at(row)] = gap >= low ? gap - low : -std::min(low - gap, shell_.envelope());
   }
   CrowdOptions rough = options_.crowded;
-  rough.enough = 0.05 * shell_.envelope();
+  rough.enough = 0.15 * shell_.envelope();
   rough.most_passes = 20;
   rough.farthest = kMostSteered * shell_.envelope();
   crowd_.displace(slacks_, rough, report.steering_sweeps);

@@ -30,7 +30,7 @@ constexpr int kMostRounds = 2;  // in which ways are mended
 constexpr double kShareOfFree = 0.9, kLeastShare = 0.1;
 constexpr double kMostPutBack = 4;  // envelopes
 constexpr double kMostFar = 0.02;
-constexpr int kMostPutBackRounds = 10;
+constexpr int kMostPutBackRounds = 20;
 
 }  // namespace
 
