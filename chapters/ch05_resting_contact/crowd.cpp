@@ -66,7 +66,7 @@ int Rows<Real>::add(const lcp::Contact& c, double allowed, double impulse) {
   Row row{};
   row.a = c.body_a;
   row.b = c.body_b;
-  row.root = static_cast<float>(root);
+  row.root = static_cast<Real>(root);
   row.allowed = static_cast<Real>((closing + allowed) / root);
   row.impulse = static_cast<Real>(impulse * root);
   rows_.push_back(row);
@@ -87,7 +87,7 @@ template <class Real>
 double Rows<Real>::residual() const {
   double worst = 0;
   for (int r = 0; r < rows(); ++r) {
-    const double push = static_cast<double>(rows_[at(r)].impulse) * rows_[at(r)].root;
+    const double push = static_cast<double>(rows_[at(r)].impulse * rows_[at(r)].root);
     worst = std::max(worst, std::abs(std::min(push, speed(r) + arms_[at(r)].allowed)));
   }
   return scale_ > 0 ? worst / scale_ : 0;
@@ -117,7 +117,7 @@ double Rows<Real>::solve(const CrowdOptions& options, int& sweeps) {
   double along_b = 0, size = 0;
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     const Row& row = rows_[r];
-    scale_ = std::max(scale_, static_cast<double>(std::abs(row.allowed) * static_cast<Real>(row.root)));
+    scale_ = std::max(scale_, static_cast<double>(std::abs(row.allowed) * row.root));
     if (!(row.impulse > 0)) continue;
     along_b += static_cast<double>(row.impulse * row.allowed);
     apply(lines_[r], row, row.impulse, changes_);
@@ -143,11 +143,10 @@ double Rows<Real>::solve(const CrowdOptions& options, int& sweeps) {
       row.before = row.impulse;
       const Real w = along(line, row, changes_) + row.allowed;
       const Real by = std::max(-row.impulse, -w);
-      const auto root = static_cast<Real>(row.root);
-      if (by == 0) return w * root < near;
+      if (by == 0) return w * row.root < near;
       apply(line, row, by, changes_);
       row.impulse += by;
-      worst = std::max(worst, root * std::abs(by));
+      worst = std::max(worst, row.root * std::abs(by));
       changed += by * by;
       return true;
     };
@@ -210,7 +209,9 @@ void Rows<Real>::spread(const CrowdOptions& options, int& sweeps) {
   std::vector<Vec8>& y = kVelocity ? changes_ : displacements_;
   const auto enough = static_cast<Real>(options.enough);
   const auto farthest = static_cast<Real>(options.farthest * options.farthest);
-  const auto is_far = [&](int body) { return y[at(body)].squaredNorm() * masses_[at(body)].reach > farthest; };
+  const auto is_far = [&](int body) {
+    return y[at(body)].squaredNorm() * masses_[at(body)].reach > farthest;
+  };
   unsaid_.assign(y.size(), 0);
   for (int pass = 0; pass < options.most_passes && !waiting_.empty(); ++pass) {
     ++sweeps;
@@ -231,7 +232,7 @@ void Rows<Real>::spread(const CrowdOptions& options, int& sweeps) {
         if (masses_[at(body)].inverse == 0) continue;
         touch(body);
         Real& unsaid = unsaid_[at(body)];  // what its other rows have not heard of yet
-        unsaid += static_cast<Real>(row.root) * std::abs(by);
+        unsaid += row.root * std::abs(by);
         if (unsaid <= enough) continue;
         unsaid = 0;
         for (int k = start_of_[at(body)]; k < start_of_[at(body) + 1]; ++k) {
@@ -267,7 +268,7 @@ void Rows<Real>::displace(std::span<const double> slack, const CrowdOptions& opt
   waiting_.clear();
   for (int r = 0; r < rows(); ++r) {
     Row& row = rows_[at(r)];
-    row.room = static_cast<Real>(slack[at(r)] / row.root) - along(lines_[at(r)], row, displacements_);
+    row.room = static_cast<Real>(slack[at(r)]) / row.root - along(lines_[at(r)], row, displacements_);
     if (slack[at(r)] < 0) waiting_.push_back(r);
   }
   spread<false>(options, sweeps);

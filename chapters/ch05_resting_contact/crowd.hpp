@@ -25,9 +25,9 @@ struct CrowdOptions {
 // rows outwards as far as it matters.
 //
 // Sweeps do not see J and M. With M^-1 = L L' (L lower triangular for the turning part) and D the diagonal of
-// J M^-1 J', they work on the lines of G = D^-1/2 J L, and on what D^1/2 z does to L^-1 v. So a line both tells
-// how fast its contact closes in and how an impulse moves its bodies, it is of length one, and fits a cache
-// line if Real is float. Impulses and velocities that are told are worked out in double precision.
+// J M^-1 J', they work on the lines of G = D^-1/2 J L, and on what D^1/2 z does to L^-1 v. So a line both
+// tells how fast its contact closes in and how an impulse moves its bodies, it is of length one, and fits a
+// cache line if Real is float. Impulses and velocities that are told are worked out in double precision.
 template <class Real>
 class Rows {
  public:
@@ -62,11 +62,11 @@ class Rows {
   }
 
   double impulse(int row) const {  // N s
-    return static_cast<double>(rows_[at(row)].impulse) / rows_[at(row)].root;
+    return static_cast<double>(rows_[at(row)].impulse) / static_cast<double>(rows_[at(row)].root);
   }
-  double speed(int row) const;                                          // m/s
+  double speed(int row) const;                                             // m/s
   const Twist& velocity(int body) const { return velocities_[at(body)]; }  // m/s, rad/s
-  Twist displacement(int body) const;                                   // m, rad
+  Twist displacement(int body) const;                                      // m, rad
   // Bodies that relax() and displace() have moved since this was last asked.
   std::vector<int> take_touched();
   double residual() const;
@@ -81,16 +81,16 @@ class Rows {
     int a, b;
     Real impulse, allowed, before;  // D^1/2 z, D^-1/2 (J v_0 + allowed)
     Real push, room;                // the same of displacements
-    float root;                     // D^1/2, kg^-1/2
+    Real root;                      // D^1/2, kg^-1/2
   };
   struct Arms {
     Vec3 normal, a, b;  // m: r x n
     double allowed;     // m/s
   };
   struct Mass {
-    double inverse, root;   // 1/kg, and its root
-    Real reach;             // m^2 by which no point goes farther, if L^-1 of the body's displacement is one
-    Mat3 turn, turn_root;   // 1/(kg m^2), and L
+    double inverse, root;  // 1/kg, and its root
+    Real reach;            // m^2 by which no point goes farther, if L^-1 of the body's displacement is one
+    Mat3 turn, turn_root;  // 1/(kg m^2), and L
   };
 
   static std::size_t at(int index) { return static_cast<std::size_t>(index); }

@@ -47,9 +47,9 @@ void Resting::advance(world::World& world, const Part& part, const world::Listen
   begin(world, part);
   take(world);
   for (const std::vector<int>& members : islands_of(world, shell_.contacts(), taken_))
-    solve(world, members, report);                            // contacts that last
-  solve_crowd(world, report);                                 // those of which there are too many
-  steer(world, report);                                       // gaps
+    solve(world, members, report);  // contacts that last
+  solve_crowd(world, report);       // those of which there are too many
+  steer(world, report);             // gaps
   if (!prove(world, report) && !put_back(world, report) && part.level < kMostHalvings) {  // the way
     world.bodies = saved_[at(part.level)];
     halvings_ = std::max(halvings_, part.level + 1);

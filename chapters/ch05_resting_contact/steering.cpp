@@ -197,7 +197,8 @@ bool Resting::put_back(world::World& world, RestReport& report) {
         world::Body& body = world.bodies[number];
         const Track& track = tracks_[at(number)];
         FullWay& full = full_ways_[at(number)];
-        if (full.share == 1) full = {1, full.far, (track.end.position - track.start.position) / dt_, track.spin};
+        if (full.share == 1)
+          full = {1, full.far, (track.end.position - track.start.position) / dt_, track.spin};
         const double share = full.share * kShareOfFree * time / dt_;
         full.share = share < kLeastShare ? 0 : share;
         const double way = (1 - full.share) * dt_ * (full.linear.norm() + track.reach * full.angular.norm());

@@ -15,6 +15,7 @@ using namespace fc_test;
 using fc::Vec3;
 using fc::resting::Crowd;
 using fc::resting::CrowdOptions;
+using Exact = fc::resting::Rows<double>;
 
 struct Pile {
   std::vector<fc::RigidBody> bodies;
@@ -39,7 +40,8 @@ struct Pile {
       }
     }
   }
-  double energy(const Crowd& crowd) const {
+  template <class Rows>
+  double energy(const Rows& crowd) const {
     double sum = 0;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       fc::RigidBody body = bodies[i];
@@ -65,26 +67,31 @@ TEST(Crowd, AgreesWithDantzig) {
     ASSERT_EQ(exact.status, fc::lcp::Status::solved) << seed;
     const fc::VecX w = rows.A * exact.z + rows.b;
 
-    Crowd crowd;
-    crowd.begin(pile.bodies, pile.reaches);
-    for (std::size_t i = 0; i < pile.contacts.size(); ++i)
-      crowd.add(pile.contacts[i], pile.allowed[i], seed % 2 == 0 ? 0.3 * static_cast<double>(i % 5) : 0);
-    CrowdOptions options;
-    options.most_sweeps = 20'000;
-    options.residual = 1e-11;
-    int sweeps = 0;
-    EXPECT_LE(crowd.solve(options, sweeps), 1e-9) << seed;
-    for (int i = 0; i < crowd.rows(); ++i)
-      EXPECT_NEAR(crowd.speed(i) + pile.allowed[static_cast<std::size_t>(i)], w[i], 1e-6)
-          << seed << " row " << i;
+    const auto agrees = [&](auto crowd, double residual, double tolerance) {
+      crowd.begin(pile.bodies, pile.reaches);
+      for (std::size_t i = 0; i < pile.contacts.size(); ++i)
+        crowd.add(pile.contacts[i], pile.allowed[i], seed % 2 == 0 ? 0.3 * static_cast<double>(i % 5) : 0);
+      CrowdOptions options;
+      options.most_sweeps = 20'000;
+      options.residual = 0.01 * residual;
+      int sweeps = 0;
+      EXPECT_LE(crowd.solve(options, sweeps), residual) << seed;
+      for (int i = 0; i < crowd.rows(); ++i)
+        EXPECT_NEAR(crowd.speed(i) + pile.allowed[static_cast<std::size_t>(i)], w[i], tolerance)
+            << seed << " row " << i;
+    };
+    agrees(Exact(), 1e-9, 1e-6);
+    agrees(Crowd(), 3e-6, 1e-3);
   }
 }
 
-// Stopped after any number of sweeps, from any guess: no kinetic energy is made.
-TEST(Crowd, NeverMakesEnergy) {
+// Stopped after any number of sweeps, from any guess: no kinetic energy is made, but for the rounding of the
+// numbers that it is done with.
+template <class Rows>
+void never_makes_energy(double rounding) {
   for (unsigned seed = 1; seed <= 100; ++seed) {
     const Pile pile(seed);
-    Crowd crowd;
+    Rows crowd;
     crowd.begin(pile.bodies, pile.reaches);
     const double before = pile.energy(crowd);
     std::mt19937 random(seed);
@@ -95,29 +102,60 @@ TEST(Crowd, NeverMakesEnergy) {
     options.residual = 0;
     int sweeps = 0;
     crowd.solve(options, sweeps);
-    EXPECT_LE(pile.energy(crowd), before * (1 + 1e-12)) << seed;
+    EXPECT_LE(pile.energy(crowd), before * (1 + rounding)) << seed;
     for (int i = 0; i < crowd.rows(); ++i) EXPECT_GE(crowd.impulse(i), 0);
   }
 }
 
-// A row that is taken out takes its impulse with it; rows that come later act at once.
-TEST(Crowd, RowsComeAndGo) {
+TEST(Crowd, NeverMakesEnergy) {
+  never_makes_energy<Exact>(1e-12);
+  never_makes_energy<Crowd>(1e-6);
+}
+
+// Impulses act on both bodies with the same numbers, whatever those were found with: momentum stays.
+TEST(Crowd, KeepsMomentum) {
+  const Pile pile(7);
+  Crowd crowd;
+  crowd.begin(pile.bodies, pile.reaches);
+  for (std::size_t i = 4; i < pile.contacts.size(); ++i)
+    crowd.add(pile.contacts[i], 0, 0);  // not the floor's
+  int sweeps = 0;
+  crowd.solve({}, sweeps);
+  Vec3 before = Vec3::Zero(), after = Vec3::Zero(), turn = Vec3::Zero();
+  for (std::size_t i = 1; i < pile.bodies.size(); ++i) {
+    const fc::RigidBody& body = pile.bodies[i];
+    const Crowd::Twist& twist = crowd.velocity(static_cast<int>(i));
+    const Vec3 change = body.mass * (twist.linear - body.velocity);
+    before += body.mass * body.velocity;
+    after += body.mass * twist.linear;
+    turn += body.position.cross(change) + body.inertia_world() * (twist.angular - body.spin);
+  }
+  EXPECT_GT((crowd.velocity(5).linear - pile.bodies[5].velocity).norm(), 0.1);
+  EXPECT_LE((after - before).norm(), 1e-13);
+  EXPECT_LE(turn.norm(), 1e-13);
+}
+
+// Rows that come later are solved from where all others are: the velocities are those of all rows at once.
+TEST(Crowd, RowsComeLater) {
   const Pile pile(3);
-  Crowd crowd, fresh;
+  Exact crowd, fresh;
   crowd.begin(pile.bodies, pile.reaches);
   fresh.begin(pile.bodies, pile.reaches);
-  for (std::size_t i = 0; i < pile.contacts.size(); ++i) {
-    crowd.add(pile.contacts[i], pile.allowed[i], 0);
-    if (i != 5) fresh.add(pile.contacts[i], pile.allowed[i], 0);
-  }
+  const auto add = [&](Exact& rows, std::size_t i) { rows.add(pile.contacts[i], pile.allowed[i], 0); };
   CrowdOptions options;
   options.most_sweeps = options.most_passes = 20'000;
   options.residual = options.enough = 1e-12;
   int sweeps = 0;
-  crowd.solve(options, sweeps);
+  for (std::size_t i = 0; i < pile.contacts.size(); ++i) add(fresh, i);
   fresh.solve(options, sweeps);
-  crowd.remove(5);
-  crowd.relax({}, options, sweeps);
+  for (std::size_t i = 0; i + 6 < pile.contacts.size(); ++i) add(crowd, i);
+  crowd.solve(options, sweeps);
+  std::vector<int> late;
+  for (std::size_t i = pile.contacts.size() - 6; i < pile.contacts.size(); ++i) {
+    late.push_back(crowd.rows());
+    add(crowd, i);
+  }
+  crowd.relax(late, options, sweeps);
   for (int i = 0; i < static_cast<int>(pile.bodies.size()); ++i)
     EXPECT_LE((crowd.velocity(i).linear - fresh.velocity(i).linear).norm(), 1e-6) << i;
   EXPECT_FALSE(crowd.take_touched().empty());
@@ -142,7 +180,7 @@ TEST(Crowd, DisplacesWithoutVelocities) {
       moved[k].velocity = crowd.displacement(static_cast<int>(k)).linear;
       moved[k].spin = crowd.displacement(static_cast<int>(k)).angular;
     }
-    EXPECT_GE(fc::lcp::contact_velocity(moved, pile.contacts[i]) + slack[i], -1e-7) << i;
+    EXPECT_GE(fc::lcp::contact_velocity(moved, pile.contacts[i]) + slack[i], -1e-6) << i;
   }
   for (std::size_t k = 0; k < pile.bodies.size(); ++k)
     EXPECT_EQ(crowd.velocity(static_cast<int>(k)).linear, pile.bodies[k].velocity);
