@@ -66,7 +66,7 @@ void MoreauJean::find_contacts(const world::World& world) {
   for (int a = 0; a < count; ++a)
     for (int b = a + 1; b < count; ++b) {
       if (!world.yields(a) && !world.yields(b)) continue;
-      const Patch* patch = facing_.find(world, a, b, 2 * fastest * dt_);
+      const Patch* patch = facing_.find(world, a, b, 2 * fastest * dt_ + world.tolerance);
       if (patch == nullptr) continue;
       for (int i = 0; i < patch->count; ++i) {
         const PatchPoint& p = patch->points[static_cast<std::size_t>(i)];

@@ -60,7 +60,7 @@ void row(TableWriter& table, double h, double dt, int repeats) {
 }  // namespace
 
 void study_knobs(const StudyOptions& options) {
-  constexpr double kWidths[] = {1e-5, 3e-5, 1e-4, 3e-4, 1e-3, 3e-3, 1e-2};  // m
+  constexpr double kWidths[] = {1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 5e-3, 1e-2};  // m
   constexpr int kRates[] = {15, 30, 60, 120, 240, 480, 960};                // 1/s
   Progress progress("knobs", std::ssize(kWidths) + std::ssize(kRates), options.quiet);
   std::int64_t done = 0;
