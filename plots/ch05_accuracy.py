@@ -21,8 +21,8 @@ def stack(axes: plt.Axes, table: Table) -> None:
         axes.loglog(table["knob"][rows], np.maximum(table[name][rows], LEAST), mark + "-", color=colour, ms=4, label=label)
     axes.axhline(table["first_error"][solver == "dantzig"][0], color=GREY, ls=":", lw=1.2, label="force, Dantzig's method [1]")
     axes.invert_xaxis()
-    axes.set(title="A stack of ten, by Gauss–Seidel", xlabel="residual that is asked for", ylabel="error", ylim=(3e-15, 30))
-    axes.legend(loc="lower left")
+    axes.set(title="A stack of ten, by Gauss–Seidel", xlabel="residual that is asked for", ylabel="error", ylim=(1e-14, 1e6))
+    axes.legend(loc="upper right")
 
 
 def heap(residual: plt.Axes, time: plt.Axes, table: Table) -> None:
@@ -35,7 +35,7 @@ def heap(residual: plt.Axes, time: plt.Axes, table: Table) -> None:
     time.semilogx(sweeps[~exact], ms[~exact], "o-", ms=4, color=BLUE, label="sweeps")
     time.axhline(ms[exact][0], color=GREY, ls=":", lw=1.2, label="Dantzig's method")
     time.set(title="… and what it takes", ylabel="ms for a simulated second", ylim=(0, 1.25 * ms.max()))
-    time.legend(loc="lower left")
+    time.legend(loc="center right")
     ticks = [5, 20, 80, 320]
     for axes in (residual, time):
         axes.set_xlabel("sweeps, at most, in a frame")

@@ -17,6 +17,12 @@ bool far_apart(const world::Bounds& a, const world::Bounds& b, double far) {
   return ((a.low - b.high).array() > far).any() || ((b.low - a.high).array() > far).any();
 }
 
+Quat turned(const Quat& orientation, const Vec3& by) {  // rad, world axes
+  const double angle = by.norm();
+  if (angle == 0) return orientation;
+  return (Quat(Eigen::AngleAxisd(angle, by / angle)) * orientation).normalized();
+}
+
 }  // namespace
 
 Facing::Facing(const world::World& world) {
@@ -81,7 +87,6 @@ void MoreauJean::find_contacts(const world::World& world) {
     }
 }
 
-// ANCHOR: moreau_jean
 MoreauJean::Report MoreauJean::step(world::World& world, const world::OnImpact& impact) {
   const Stopwatch watch;
   Report report;
@@ -90,43 +95,38 @@ MoreauJean::Report MoreauJean::step(world::World& world, const world::OnImpact& 
   for (const world::Body& body : world.bodies) bodies_.push_back(body.state);
   find_contacts(world);
 
-  VecX bounce(
-      static_cast<Eigen::Index>(contacts_.size()));  // what v+ must be at least, with its sign changed
+  // ANCHOR: moreau_jean
+  VecX bounce(static_cast<Eigen::Index>(contacts_.size()));  // e v-
   for (Eigen::Index i = 0; i < bounce.size(); ++i) {
     const lcp::Contact& c = contacts_[static_cast<std::size_t>(i)];
     bounce[i] = c.restitution * lcp::contact_velocity(bodies_, c);
   }
   for (RigidBody& body : bodies_)
     if (world.effects.gravity && !body.is_static()) body.velocity += dt_ * *world.effects.gravity;
-  if (!contacts_.empty()) {
-    const lcp::ImpactProblem rows = lcp::assemble(bodies_, contacts_);
-    const VecX b = rows.v_before + bounce;
-    lcp::LcpResult result;
-    solver_.solve({rows.A, b}, {}, result);
-    FC_CHECK(result.status == lcp::Status::solved, "the contacts of a frame could not be solved");
-    report.rows = static_cast<int>(contacts_.size());
-    report.residual = result.residual;
-    for (std::size_t i = 0; i < contacts_.size(); ++i) {
-      const double j = result.z[static_cast<Eigen::Index>(i)];
-      if (!(j > 0)) continue;
-      lcp::apply_impulse(bodies_, contacts_[i], j);
-      if (impact) impact({0, contacts_[i], {static_cast<int>(i), 0, 0, 0, j}});
-    }
-  }
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    RigidBody& body = bodies_[i];
+  const lcp::ImpactProblem rows = lcp::assemble(bodies_, contacts_);
+  const VecX b = rows.v_before + bounce;
+  lcp::LcpResult result;
+  if (!contacts_.empty()) solver_.solve({rows.A, b}, {}, result);
+  for (std::size_t i = 0; i < contacts_.size(); ++i)
+    lcp::apply_impulse(bodies_, contacts_[i], result.z[static_cast<Eigen::Index>(i)]);
+  for (RigidBody& body : bodies_) {
     if (body.is_static()) continue;
-    body.position += dt_ * body.velocity;
-    const double angle = dt_ * body.spin.norm();
-    if (angle > 0)
-      body.orientation =
-          (Quat(Eigen::AngleAxisd(angle, body.spin.normalized())) * body.orientation).normalized();
-    world.bodies[i].state = body;
+    body.position += dt_ * body.velocity;  // v+
+    body.orientation = turned(body.orientation, dt_ * body.spin);
   }
+  // ANCHOR_END: moreau_jean
+  FC_CHECK(contacts_.empty() || result.status == lcp::Status::solved,
+           "the contacts of a frame could not be solved");
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    if (!bodies_[i].is_static()) world.bodies[i].state = bodies_[i];
+  for (std::size_t i = 0; impact && i < contacts_.size(); ++i)
+    if (const double j = result.z[static_cast<Eigen::Index>(i)]; j > 0)
+      impact({0, contacts_[i], {static_cast<int>(i), 0, 0, 0, j}});
+  report.rows = static_cast<int>(contacts_.size());
+  report.residual = result.residual;
   report.searches = facing_.searches() - before;
   report.ns = watch.ns();
   return report;
 }
-// ANCHOR_END: moreau_jean
 
 }  // namespace fc::resting

@@ -18,41 +18,39 @@ class Tables {
       : methods_(out / "methods.csv", {{"scene", ""},
                                        {"method", ""},
                                        {"place_error", "m"},
-                                       {"force_error", ""},
                                        {"gap", "m"},
                                        {"energy_error", "J"},
                                        {"lost", "s"},
                                        {"rows", ""},
                                        {"queries", ""},
                                        {"second_ns", ""}}),
-        histories_(out / "histories.csv", {{"scene", ""},
-                                           {"method", ""},
-                                           {"t", "s"},
-                                           {"gap", "m"},
-                                           {"energy", "J"},
-                                           {"lost", "s"},
-                                           {"top", "m"}}) {}
+        histories_(out / "histories.csv",
+                   {{"scene", ""}, {"method", ""}, {"t", "s"}, {"gap", "m"}, {"lost", "s"}, {"top", "m"}}),
+        weights_(out / "weights.csv", {{"scene", ""}, {"method", ""}, {"force_error", ""}, {"drift", "m"}}) {}
   // For measure_...(): one row for each frame. `top`: of the last body.
   Look history(const char* scene, Method method) {
     lost_ = 0;
     return [this, scene, method](const world::World& world, const Frame& frame) {
       lost_ += frame.lost;
-      histories_.row({std::string(scene), std::string(name(method)), frame.t, frame.gap, energy_of(world),
-                      lost_, world.bodies.back().state.position.z()});
+      histories_.row({std::string(scene), std::string(name(method)), frame.t, frame.gap, lost_,
+                      world.bodies.back().state.position.z()});
     };
   }
-  void row(const char* scene, Method method, double place, const Cell& force, double energy, const Run& run,
-           double seconds) {
-    methods_.row({std::string(scene), std::string(name(method)), place, force, run.gap, energy, run.lost,
-                  run.rows, run.queries, run.second_ns(seconds)});
+  void row(const char* scene, Method method, double place, double energy, const Run& run, double seconds) {
+    methods_.row({std::string(scene), std::string(name(method)), place, run.gap, energy, run.lost, run.rows,
+                  run.queries, run.second_ns(seconds)});
+  }
+  void weights(const char* scene, Method method, const StackResult& r) {
+    weights_.row({std::string(scene), std::string(name(method)), r.force_error, r.drift});
   }
   void close() {
     methods_.close();
     histories_.close();
+    weights_.close();
   }
 
  private:
-  TableWriter methods_, histories_;
+  TableWriter methods_, histories_, weights_;
   double lost_ = 0;
 };
 
@@ -61,17 +59,18 @@ void study_scenes(const StudyOptions& options) {
   const int n = options.repeats;
   for (const Method m : kMethods) {
     const BallResult r = measure_ball({.scene = ball_scene(), .method = m}, n, tables.history("ball", m));
-    tables.row("ball", m, r.height_error, r.rest_error, r.energy_error, r.run, 2);
+    tables.row("ball", m, r.height_error, r.energy_error, r.run, 2);
   }
   for (const auto& [scene, apart] : {std::pair("stack", 0.0), std::pair("landing", kApart)})
     for (const Method m : kMethods) {
-      const StackResult r =
-          measure_stack({.scene = stack_scene(apart), .method = m}, n, tables.history(scene, m));
-      tables.row(scene, m, r.place_error, r.force_error, r.energy_error, r.run, 3);
+      const Look history = apart > 0 ? tables.history(scene, m) : [](const world::World&, const Frame&) {};
+      const StackResult r = measure_stack({.scene = stack_scene(apart), .method = m}, n, history);
+      tables.row(scene, m, r.place_error, r.energy_error, r.run, 3);
+      tables.weights(scene, m, r);
     }
   for (const Method m : kMethods) {
-    const SlopeResult r = measure_slope({.scene = slope_scene(), .method = m}, n, tables.history("slope", m));
-    tables.row("slope", m, std::abs(r.way_error), 0.0, r.energy_error, r.run, 2);
+    const SlopeResult r = measure_slope({.scene = slope_scene(), .method = m}, n);
+    tables.row("slope", m, std::abs(r.way_error), r.energy_error, r.run, 2);
   }
   tables.close();
 }

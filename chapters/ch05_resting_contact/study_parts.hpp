@@ -18,7 +18,7 @@ struct StudyOptions {
 
 void study_solvers(const StudyOptions& options);  // forces.csv, heap.csv
 void study_knobs(const StudyOptions& options);    // envelope.csv, step.csv
-void study_methods(const StudyOptions& options);  // methods.csv, histories.csv, ball.csv
+void study_methods(const StudyOptions& options);  // methods.csv, weights.csv, histories.csv, ball.csv
 
 constexpr double kGravity = 9.81;     // m/s^2
 constexpr double kFrame = 1.0 / 60;   // s
