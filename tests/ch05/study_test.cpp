@@ -111,11 +111,11 @@ TEST_F(RestStudy, IsTheSameInEveryRun) {
     const auto a = table(name), b = fc_test::read_table(again / name);
     ASSERT_EQ(a.rows(), b.rows()) << name;
     for (int row = 0; row < a.rows(); ++row)
-      for (std::size_t column = 0; column < a.names.size(); ++column)
-        if (!a.names[column].ends_with("_ns")) {
+      for (std::size_t column = 0; column < a.columns.size(); ++column)
+        if (!a.columns[column].ends_with("_ns")) {
           EXPECT_EQ(a.cells[static_cast<std::size_t>(row)][column],
                     b.cells[static_cast<std::size_t>(row)][column])
-              << name << ", row " << row << ", " << a.names[column];
+              << name << ", row " << row << ", " << a.columns[column];
         }
   }
 }
