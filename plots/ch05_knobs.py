@@ -19,7 +19,7 @@ def errors(axes: plt.Axes, table: Table, x: str, columns: list[tuple[str, str, s
 def times(axes: plt.Axes, table: Table, x: str) -> None:
     for name, label, colour, mark in [("heap", "heap of 36, landing", RED, "^"), ("stack", "stack of ten", BLUE, "o"), ("slope", "slope", GREEN, "s")]:
         axes.loglog(table[x], table[f"{name}_ns"] / 1e6, mark + "-", color=colour, ms=4, label=label)
-    axes.set(title="What it takes", ylabel="ms for a simulated second", ylim=(0.03, 4e3))
+    axes.set(title="What it takes", ylabel="ms for a simulated second", ylim=(0.03, 2e4))
     axes.legend(loc="upper right", ncol=3, columnspacing=1, handlelength=1.4)
 
 
