@@ -22,7 +22,7 @@ int main(int argc, char** argv) {
        [&] { resting::study_methods(study); }}};
   program.all = true;
   program.add_options = [&](CLI::App& app) {
-    app.add_option("--repeats", study.repeats, "Runs of each kind, for the median of their times")
+    app.add_option("--repeats", study.repeats, "Runs of each kind: the least of their times counts")
         ->capture_default_str()
         ->check(CLI::Range(1, 100));
   };

@@ -12,7 +12,7 @@ namespace fc::resting {
 
 struct StudyOptions {
   std::filesystem::path out;
-  int repeats = 3;     // of each run, for the median of its times
+  int repeats = 3;     // of each run: the least of its times counts, others can only add to it
   bool quiet = false;  // no progress
 };
 
@@ -69,7 +69,7 @@ struct Run {
   double mean_residual = 0, worst_residual = 0;
   double gap = 0;                          // m, the smallest at the end of a frame, if someone looked
   std::vector<double> ns = {};             // of each repeat
-  double second_ns(double seconds) const;  // the median, for a second that is simulated
+  double second_ns(double seconds) const;  // the least, for a second that is simulated
 };
 
 // Builds the world, and runs it `repeats` times; tells `look` of each frame of the first. Gaps are measured
