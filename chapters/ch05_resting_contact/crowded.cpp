@@ -87,7 +87,7 @@ void Resting::steer_crowd(world::World& world, RestReport& report) {
   }
   CrowdOptions rough = options_.crowded;
   rough.enough = 0.05 * shell_.envelope();
-  rough.most_passes = 60;
+  rough.most_passes = 20;
   rough.farthest = kMostSteered * shell_.envelope();
   crowd_.displace(slacks_, rough, report.steering_sweeps);
   move_touched(world);

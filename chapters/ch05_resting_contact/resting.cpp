@@ -32,8 +32,8 @@ RestReport Resting::step(world::World& world, const world::Listeners& listeners)
   const Stopwatch watch;
   RestReport report;
   report.step.min_gap = report.smallest_gap = std::numeric_limits<double>::infinity();
-  const int level = halvings_, parts = 1 << level;  // as the last frame would have needed, or half of that
-  halvings_ = std::max(0, halvings_ - 1);
+  const int level = std::max(0, halvings_ - 1), parts = 1 << level;  // half of what the last frame needed
+  halvings_ = level;
   for (int part = 0; part < parts; ++part)
     advance(world, {frame_ / parts * part, frame_ / parts, level}, listeners, report);
   report.step.step_ns = watch.ns();
@@ -188,9 +188,11 @@ double Resting::allowed(ShellContact& c) const {
   const double middle = 0.5 * shell_.envelope(), fast = shell_.envelope() / dt_;
   c.before = lcp::contact_velocity(start_, c.contact);
   if (c.bounce > 0) return -c.bounce;
-  if (is_crowded(c.contact) && c.contact.restitution > 0 && -c.before > fast &&
+  // Whether it bounces is asked without what gravity will do in this part of the frame, as in take().
+  const double closing = -lcp::contact_velocity(given_, c.contact);
+  if (is_crowded(c.contact) && c.contact.restitution > 0 && closing > fast &&
       c.contact.gap <= shell_.envelope())
-    return c.contact.restitution * c.before;
+    return -c.contact.restitution * closing;
   return std::max(0.0, c.contact.gap - middle) / dt_;
 }
 

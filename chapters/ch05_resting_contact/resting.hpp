@@ -111,6 +111,7 @@ class Resting {
   // Of bodies that are put back: their whole way in this part of the frame, and the share that is left.
   struct FullWay {
     double share = 1;
+    bool far = false;
     Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();  // m/s, rad/s
   };
   std::vector<FullWay> full_ways_;

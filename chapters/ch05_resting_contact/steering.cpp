@@ -24,11 +24,12 @@ constexpr double kMostLift = 4;
 // A way is good if every gap stays above this part of the envelope, or half of what it was.
 constexpr double kFloor = 1.0 / 64;
 
-constexpr int kMostRounds = 4;  // in which ways are mended
+constexpr int kMostRounds = 2;  // in which ways are mended
 
 // A body that is put back goes so much of the way that is free; or none, if that is less than the second.
 constexpr double kShareOfFree = 0.9, kLeastShare = 0.1;
-constexpr double kMostPutBack = 2;  // envelopes
+constexpr double kMostPutBack = 4;  // envelopes
+constexpr double kMostFar = 0.02;
 constexpr int kMostPutBackRounds = 10;
 
 }  // namespace
@@ -186,6 +187,8 @@ bool Resting::prove(world::World& world, RestReport& report) {
 bool Resting::put_back(world::World& world, RestReport& report) {
   std::vector<ShellPair>& pairs = shell_.pairs();
   full_ways_.assign(world.bodies.size(), {});
+  const int most_far = static_cast<int>(kMostFar * std::count(crowded_.begin(), crowded_.end(), 1));
+  int far = 0;
   for (int round = 0; !open_.empty(); ++round) {
     for (const auto& [p, time] : open_) {
       if (!is_crowded_pair(pairs[p]) || round == kMostPutBackRounds) return false;
@@ -194,11 +197,14 @@ bool Resting::put_back(world::World& world, RestReport& report) {
         world::Body& body = world.bodies[number];
         const Track& track = tracks_[at(number)];
         FullWay& full = full_ways_[at(number)];
-        if (full.share == 1) full = {1, (track.end.position - track.start.position) / dt_, track.spin};
+        if (full.share == 1) full = {1, full.far, (track.end.position - track.start.position) / dt_, track.spin};
         const double share = full.share * kShareOfFree * time / dt_;
         full.share = share < kLeastShare ? 0 : share;
         const double way = (1 - full.share) * dt_ * (full.linear.norm() + track.reach * full.angular.norm());
-        if (way > kMostPutBack * shell_.envelope()) return false;
+        if (way > kMostPutBack * shell_.envelope() && !full.far) {
+          full.far = true;
+          if (++far > most_far) return false;
+        }
         if (!body.steered) body.steer_velocity = body.steer_spin = Vec3::Zero();
         body.steered = true;
         body.steer_velocity += full.share * full.linear - (track.end.position - track.start.position) / dt_;

@@ -1,0 +1,153 @@
+// Exercise 5.1. Closed forms first; then random balls, for what holds in every frame.
+#include "ex01_row.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace {
+
+using namespace fc::exercises;
+
+constexpr double kWidth = 1. / 1024, kFrame = 1. / 64;  // m, s: exact numbers
+constexpr double kGravity = 9.81;                       // m/s^2; what falls so in a frame is 2.4 mm
+const Envelope kEnvelope{kWidth, kFrame};
+constexpr double kRounding = 1e-17;  // m; a thousandth of a millionth of a millionth of the envelope
+
+double energy(const Ball& ball, double gravity) {  // J
+  return ball.mass * (0.5 * ball.velocity * ball.velocity + gravity * ball.gap);
+}
+
+TEST(Ex01Row, MayCloseInToTheMiddle) {
+  EXPECT_EQ(allowed(kEnvelope, kWidth), 0.5 * kWidth / kFrame) << "m/s: half the envelope in one frame";
+  EXPECT_EQ(allowed(kEnvelope, 0.75 * kWidth), 0.25 * kWidth / kFrame) << "m/s: a quarter of it";
+  EXPECT_EQ(allowed(kEnvelope, 3 * kWidth), 2.5 * kWidth / kFrame)
+      << "m/s: from outside of the envelope, too, it comes to the middle by the frame's end";
+  EXPECT_EQ(allowed(kEnvelope, 0.5 * kWidth), 0) << "m/s: it is there";
+}
+
+TEST(Ex01Row, NoGapBecomesAVelocity) {
+  for (const double part : {0.0, 0.1, 0.25, 0.499})
+    EXPECT_EQ(allowed(kEnvelope, part * kWidth), 0)
+        << "m/s, with a gap of " << part
+        << " h: it may not come nearer, but nothing drives it out; that would make energy out of an error";
+}
+
+TEST(Ex01Row, WhatIsAnImpact) {
+  const double fast = kWidth / kFrame, faster = std::nextafter(fast, 1);
+  EXPECT_FALSE(is_impact(kEnvelope, {1, kWidth, -fast, 0.5})) << "h/dt itself is not too fast";
+  EXPECT_TRUE(is_impact(kEnvelope, {1, kWidth, -faster, 0.5})) << "this would come through the envelope";
+  EXPECT_TRUE(is_impact(kEnvelope, {1, 0.1 * kWidth, -faster, 0.5}));
+  EXPECT_FALSE(is_impact(kEnvelope, {1, 0.1 * kWidth, -0.9 * fast, 0.5}))
+      << "slow: a row, however near it is";
+  EXPECT_FALSE(is_impact(kEnvelope, {1, kWidth, 10 * fast, 0.5})) << "it parts";
+}
+
+TEST(Ex01Row, WithoutBounceNothingIsAnImpact) {
+  for (const double times : {1.0, 2.0, 1000.0})
+    EXPECT_FALSE(is_impact(kEnvelope, {1, kWidth, -times * kWidth / kFrame, 0}))
+        << "restitution 0: the row stops it as well as an impact would";
+}
+
+TEST(Ex01Row, WhatDoesNotArriveIsNoImpact) {
+  const double fast = kWidth / kFrame;
+  EXPECT_FALSE(is_impact(kEnvelope, {1, 3 * kWidth, -2.5 * fast, 0.5}))
+      << "it flies 2.5 h in this frame, and comes just to the middle";
+  EXPECT_TRUE(is_impact(kEnvelope, {1, 3 * kWidth, -2.6 * fast, 0.5})) << "it comes below the middle";
+}
+
+TEST(Ex01Row, FallsInAndLies) {
+  Ball ball{2, kWidth, 0, 0};
+  Frame frame = rest(kEnvelope, kGravity, ball);
+  EXPECT_NEAR(ball.gap, 0.5 * kWidth, kRounding) << "m: in one frame to the middle";
+  EXPECT_NEAR(ball.velocity, -0.5 * kWidth / kFrame, 1e-15) << "m/s: this is how it came there";
+  EXPECT_NEAR(frame.impulse, 2 * (kGravity * kFrame - 0.5 * kWidth / kFrame), 1e-14)
+      << "N s: m (v+ - v*), the weight but for what it still sinks";
+  frame = rest(kEnvelope, kGravity, ball);
+  EXPECT_EQ(ball.velocity, 0) << "m/s: now it is stopped";
+  EXPECT_NEAR(frame.impulse, 2 * (kGravity * kFrame + 0.5 * kWidth / kFrame), 1e-14) << "N s";
+  for (int k = 0; k < 1000; ++k) {
+    frame = rest(kEnvelope, kGravity, ball);
+    ASSERT_EQ(ball.velocity, 0) << "m/s, frame " << k << ": it lies";
+    ASSERT_NEAR(ball.gap, 0.5 * kWidth, kRounding) << "m, frame " << k << ": it lies in the middle";
+    ASSERT_NEAR(frame.impulse, 2 * kGravity * kFrame, 1e-14) << "N s: the weight, for one frame";
+  }
+}
+
+TEST(Ex01Row, WhatComesSlowlyIsNotPushed) {
+  Ball ball{1, kWidth, -0.1 * kWidth / kFrame, 0};
+  const Frame frame = rest(kEnvelope, 0, ball);
+  EXPECT_EQ(frame.impulse, 0) << "N s: it does not come to the middle in this frame, nobody has to push";
+  EXPECT_NEAR(ball.gap, 0.9 * kWidth, kRounding) << "m";
+  EXPECT_EQ(ball.velocity, -0.1 * kWidth / kFrame) << "m/s";
+}
+
+TEST(Ex01Row, WhatPartsIsNotHeld) {
+  for (const double part : {0.0, 0.3, 0.5, 0.9}) {
+    Ball ball{1, part * kWidth, 1, 0};
+    const Frame frame = rest(kEnvelope, kGravity, ball);
+    EXPECT_EQ(frame.impulse, 0) << "N s: floors do not pull";
+    EXPECT_NEAR(ball.velocity, 1 - kGravity * kFrame, 1e-15) << "m/s";
+    EXPECT_NEAR(ball.gap, part * kWidth + kFrame * (1 - kGravity * kFrame), 1e-15)
+        << "m: after the frame it is far above the middle, and nothing is to be put right";
+    EXPECT_EQ(frame.displaced, 0) << "m: what counts is the gap at the frame's end";
+  }
+}
+
+TEST(Ex01Row, HowFarAGapIsDisplaced) {
+  for (const double part : {0.5, 0.6, 1.0, 5.0})
+    EXPECT_EQ(displacement(kEnvelope, part * kWidth), 0) << "m, gap " << part << " h";
+  EXPECT_NEAR(displacement(kEnvelope, 0.3 * kWidth), 0.04 * kWidth, kRounding) << "m: a fifth of 0.2 h";
+  EXPECT_NEAR(displacement(kEnvelope, 0.24 * kWidth), 0.052 * kWidth, kRounding)
+      << "m: a fifth of 0.26 h is more than the hundredth that lacks to h/4";
+  EXPECT_NEAR(displacement(kEnvelope, 0.1 * kWidth), 0.15 * kWidth, kRounding)
+      << "m: what lacks to h/4, at once, for there the reserve begins";
+  EXPECT_NEAR(displacement({kWidth, kFrame, 1, 0}, 0), 0.5 * kWidth, kRounding) << "m: share 1, all of it";
+}
+
+TEST(Ex01Row, ATouchOpensToTheMiddle) {
+  Ball ball{3, 0, 0, 0};
+  double sum = 0;  // J
+  for (int k = 1; k <= 60; ++k) {
+    const Frame frame = rest(kEnvelope, kGravity, ball);
+    sum += frame.energy;
+    // First to h/4; after that each frame leaves four fifths of what lacks.
+    ASSERT_NEAR(ball.gap, kWidth * (0.5 - 0.25 * std::pow(0.8, k - 1)), kRounding) << "m, after frame " << k;
+    ASSERT_EQ(ball.velocity, 0) << "m/s, after frame " << k << ": displacements are no velocities";
+    ASSERT_NEAR(sum, 3 * kGravity * ball.gap, 1e-15) << "J: all that the displacements have lifted, m g h";
+  }
+}
+
+TEST(Ex01Row, NoFrameMakesEnergy) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> any(0, 1);
+  int pushed = 0, displaced = 0;
+  for (int trial = 0; trial < 20'000; ++trial) {
+    const Envelope envelope{1e-4 + 0.01 * any(random), 0.001 + 0.03 * any(random), 0.1 + 0.9 * any(random),
+                            0.5 * any(random)};
+    const double gravity = trial % 3 == 0 ? 0 : 20 * any(random);
+    Ball ball{0.1 + any(random), 2 * envelope.width * any(random), 2 * (any(random) - 0.5), 0};
+    const Ball before = ball;
+    const Frame frame = rest(envelope, gravity, ball);
+    ASSERT_GE(frame.impulse, 0) << "N s: floors do not pull";
+    ASSERT_GE(frame.displaced, 0) << "m: displacements part";
+    ASSERT_GE(ball.gap, std::min(before.gap, 0.5 * envelope.width) - 1e-15)
+        << "m, trial " << trial << ": it came nearer than the middle";
+    ASSERT_LE(energy(ball, gravity), energy(before, gravity) + frame.energy + 1e-13)
+        << "J, trial " << trial << ": more than the displacement added";
+    ASSERT_NEAR(frame.energy, ball.mass * gravity * frame.displaced, 1e-15) << "J";
+    if (frame.impulse > 1e-12) {
+      ++pushed;
+      ASSERT_NEAR(ball.velocity, -std::max(0.0, before.gap - 0.5 * envelope.width) / envelope.dt, 1e-13)
+          << "m/s: who is pushed is at the bound (complementarity)";
+    }
+    displaced += frame.displaced > 0;
+  }
+  EXPECT_GT(pushed, 1000);
+  EXPECT_GT(displaced, 1000);
+}
+
+}  // namespace
