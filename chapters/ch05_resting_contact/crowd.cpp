@@ -158,7 +158,7 @@ double Rows<Real>::solve(const CrowdOptions& options, int& sweeps) {
     } else {
       for (const int r : waiting_) visit(r);
     }
-    if (worst <= done) break;
+    if (all && worst <= done) break;  // others may close in that had no turn
     if (sweep + kPlainSweeps >= options.most_sweeps) continue;
     // What a sweep changes is the gradient of conjugate gradients (Silcowitz, Niebe, Erleben 2010): the last
     // direction is gone on with as far as Fletcher and Reeves say, or forgotten where that does not help.

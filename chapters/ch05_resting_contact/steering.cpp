@@ -258,11 +258,14 @@ void Resting::finish(world::World& world, RestReport& report) {
 bool Resting::mend(world::World& world, ShellPair& pair, double time) {
   const bool known = pair.count > 0;
   const Track &a = tracks_[at(pair.a)], &b = tracks_[at(pair.b)];
+  const std::size_t before = shell_.contacts().size();
   const double gap = shell_.search_at(world, pair, a.end, b.end);
   const bool overlaps = !(gap > 0);
   double gap_there = gap;
   const bool between = gap >= need(world, pair);  // it is on the way that they come too near
   if (overlaps || between) {
+    // Contacts of a pose that will not be: an overlap shows no normal to go by.
+    if (!is_crowded_pair(pair)) shell_.contacts().resize(before);
     const ca::Motion motion_a = world.motion(pair.a, 0), motion_b = world.motion(pair.b, 0);
     gap_there = shell_.search_at(world, pair, motion_a.pose_at(time), motion_b.pose_at(time));
   }
