@@ -23,6 +23,7 @@ Resting::Resting(const Scene& scene, world::World& world, double dt, const RestO
       options_(options),
       frame_(dt),
       dt_(dt),
+      still_(world.bodies.size(), 0),
       place_(world.bodies.size(), -1) {
   world.touch = shell_.envelope();
   world.reserve = 0.5 * shell_.envelope();
@@ -36,6 +37,7 @@ RestReport Resting::step(world::World& world, const world::Listeners& listeners)
   halvings_ = level;
   for (int part = 0; part < parts; ++part)
     advance(world, {frame_ / parts * part, frame_ / parts, level}, listeners, report);
+  fall_asleep(world, report);
   report.step.step_ns = watch.ns();
   report.step.ccd_ns = report.step.step_ns - report.step.lcp_ns;
   return report;
@@ -44,7 +46,7 @@ RestReport Resting::step(world::World& world, const world::Listeners& listeners)
 // ANCHOR: step
 void Resting::advance(world::World& world, const Part& part, const world::Listeners& listeners,
                       RestReport& report) {
-  begin(world, part);
+  begin(world, part, report);
   take(world);
   for (const std::vector<int>& members : islands_of(world, shell_.contacts(), taken_))
     solve(world, members, report);  // contacts that last
@@ -112,11 +114,10 @@ void Resting::add(const world::StepReport& part, world::StepReport& all) {
 // Where everything stands, which contacts there are, and what gravity will have made of the velocities by the
 // frame's end. (A body that was held did not live through the last frame: it has that frame's gravity
 // already.)
-void Resting::begin(world::World& world, const Part& part) {
+void Resting::begin(world::World& world, const Part& part, RestReport& report) {
   const double share = part.length / dt_;  // of the impulses that were
   dt_ = part.length;
   world.rest_speed = shell_.envelope() / dt_;
-  saved_[at(part.level)] = world.bodies;
   given_.clear();
   start_.clear();
   sweeps_.clear();
@@ -133,6 +134,8 @@ void Resting::begin(world::World& world, const Part& part) {
     sweeps_.back().turn = dt_ * body.state.spin.norm();
   }
   shell_.find(world, sweeps_);
+  wake_touched(world, report);
+  saved_[at(part.level)] = world.bodies;
   for (ShellContact& contact : shell_.contacts()) {
     contact.bounce = std::exchange(contact.bounce_next, 0);
     contact.impulse *= share;
@@ -173,6 +176,7 @@ void Resting::take(const world::World& world) {
     const lcp::Contact& c = shell[i].contact;
     row_.push_back(-1);
     taken_.push_back(0);
+    if (rests(world, c.body_a) && rests(world, c.body_b)) continue;
     if (is_crowded(c)) {
       add_row(static_cast<int>(i));
     } else {

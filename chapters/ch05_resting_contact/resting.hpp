@@ -61,7 +61,13 @@ class Resting {
   static constexpr int kMostHalvings = 4;
   static constexpr double kMostSteered = 2;  // of the envelope: no body is displaced by more
   void advance(world::World& world, const Part& part, const world::Listeners& listeners, RestReport& report);
-  void begin(world::World& world, const Part& part);
+  void begin(world::World& world, const Part& part, RestReport& report);
+  Joined joined_by_contacts(const world::World& world) const;
+  void wake_touched(world::World& world, RestReport& report);
+  void fall_asleep(world::World& world, RestReport& report);
+  bool rests(const world::World& world, int body) const {
+    return world.bodies[body].asleep || !world.yields(body);
+  }
   void find_crowds(const world::World& world);
   bool is_crowded(const lcp::Contact& c) const { return crowded_[at(c.body_a)] || crowded_[at(c.body_b)]; }
   bool is_crowded_pair(const ShellPair& pair) const { return crowded_[at(pair.a)] || crowded_[at(pair.b)]; }
@@ -98,6 +104,8 @@ class Resting {
   double frame_, dt_;  // s, of a frame, and of the part of it at hand
   int halvings_ = 0;   // with which the next frame begins
   std::array<std::vector<world::Body>, kMostHalvings + 1> saved_;  // as they were when a part began
+
+  std::vector<double> still_;  // s, for how long each body has been carried, and slow
 
   // Of the frame at hand, for each body: as it was given, and with the velocity that gravity will have made
   // of it by the frame's end; its way through the frame; whether it is in a crowd, in an island (2: and was

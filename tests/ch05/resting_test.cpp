@@ -22,8 +22,11 @@ struct Simulation {
   double lost = 0, steered = 0, smallest_gap = 1e300, residual = 0;
   RestReport last;
 
-  Simulation(const std::string& text, double dt_)
-      : scene(read(text)), world(fc::world::build_world(scene)), dt(dt_), resting(scene, world, dt_) {}
+  Simulation(const std::string& text, double dt_, const fc::resting::RestOptions& options = {})
+      : scene(read(text)),
+        world(fc::world::build_world(scene)),
+        dt(dt_),
+        resting(scene, world, dt_, options) {}
   static fc::Scene read(const std::string& text) {
     const auto file = scratch("scenes") / "scene.yaml";
     std::ofstream(file) << text;
@@ -169,6 +172,37 @@ TEST(Landing, WithoutBounceLosesNoTime) {
   EXPECT_NEAR(s.body(1).position.z(), 0.50025, 1e-5);
   EXPECT_LE(s.kinetic(), 1e-12);
   EXPECT_GT(s.smallest_gap, 0);
+}
+
+// Two stacks of three: both fall asleep, and cost no row; a ball wakes the one that it falls on, and nobody
+// else; then that one sleeps again, with the ball on top. As an island, and as a crowd.
+TEST(Sleep, WakesWhoeverIsTouched) {
+  for (const int crowd : {400, 3}) {
+    Simulation s(
+        "sleep: {after: 0.2, speed: 0.01}\n" + head +
+            "  - {shape: box, grid: {count: [2, 1, 3], spacing: [5, 1, 1.0001]}, position: [0, 0, 0.5001]}\n"
+            "  - {shape: ball, position: [5, 0, 8]}\n",
+        1 / 60.0, {.crowd = crowd});
+    s.run(0.8);
+    EXPECT_EQ(s.last.step.lcp_rows, 0) << crowd;
+    for (int body = 1; body <= 6; ++body) EXPECT_TRUE(s.world.bodies[body].asleep) << crowd << ": " << body;
+    int wakes = 0;
+    double force = 0;  // N, on the floor, in the last frame in which anybody was awake
+    for (int frame = 0; frame < 90; ++frame) {
+      double now = 0;
+      s.run(1 / 60.0, {.impact = [&](const fc::world::ImpactRecord& impact) {
+              if (impact.contact.body_a == 0) now += impact.impulse.impulse * 60;
+            }});
+      wakes += s.last.step.wakes;
+      if (now > 0) force = now;
+      for (const int body : {1, 3, 5}) ASSERT_TRUE(s.world.bodies[body].asleep) << crowd << ": " << body;
+    }
+    EXPECT_EQ(wakes, 3) << crowd;
+    EXPECT_NEAR(force, 80, 1e-3) << crowd << ": N, three boxes and the ball";
+    for (int body = 1; body <= 7; ++body) EXPECT_TRUE(s.world.bodies[body].asleep) << crowd << ": " << body<<" v "<<s.body(body).velocity.transpose()<<" w "<<s.body(body).spin.transpose()<<" x "<<s.body(body).position.transpose()<<" sup "<<s.world.bodies[body].supported;
+    EXPECT_EQ(s.lost, 0) << crowd;
+    EXPECT_GT(s.smallest_gap, 0) << crowd;
+  }
 }
 
 // Chapter 4's scenes with things that fall, in an envelope of the default width: nothing overlaps in any
