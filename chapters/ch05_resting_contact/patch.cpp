@@ -245,7 +245,8 @@ void find_patch(const PatchSide& a, const PatchSide& b, const ca::PairPose& pose
       }
     }
   }
-  if (patch.count == 0 || least > nearest.lower + slack)
+  const bool has_witnesses = nearest.status != ca::GjkResult::Status::overlapping;
+  if (has_witnesses && (patch.count == 0 || least > nearest.lower + slack))
     add(nearest.point_a - a.model.radius * nearest.normal, nearest.point_b + b.model.radius * nearest.normal,
         std::max(patch.gap, nearest.lower), 3);
 }

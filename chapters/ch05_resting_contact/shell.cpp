@@ -229,7 +229,16 @@ double Shell::search(const world::World& world, ShellPair& pair, const Pose& a, 
   double gap = std::numeric_limits<double>::infinity();
   if (convex(world, pair)) {
     const ca::PairPose pose(a, b);
-    const ca::GjkResult result = nearest(world, pair, pose);
+    ca::GjkResult result = nearest(world, pair, pose);
+    if (!(result.lower > 0) && pair.known) {
+      // An overlap (of a pose that will not be) has no plane: the last one will be near to the next.
+      const double along = axis_gap(world, pair, a, b);
+      if (along > result.lower) {
+        result.lower = along;
+        result.normal = pair.axis_at(a, b);
+        result.status = ca::GjkResult::Status::overlapping;
+      }
+    }
     gap = result.lower;
     pair.of_b = false;
     pair.axis = a.rotation.transpose() * result.normal;
