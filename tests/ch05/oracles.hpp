@@ -1,0 +1,67 @@
+// A scene's text stepped in chapter 5's way, with what each frame reported: for the oracles.
+#pragma once
+
+#include <cmath>
+#include <cstdio>
+
+#include "ch05_resting_contact/resting.hpp"
+#include "support/gallery.hpp"
+
+namespace fc_test {
+
+inline std::string number(double x) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.17g", x);
+  return text;
+}
+
+struct Simulation {
+  fc::Scene scene;
+  fc::world::World world;
+  double dt;
+  fc::resting::Resting resting;
+  int frame = 0;
+  double lost = 0;                 // s, all frames
+  double steered = 0;              // J, all frames
+  double smallest_gap = INFINITY;  // m, certified, of all frames' pairs
+  double penetration = 0;          // m
+  fc::resting::RestReport last;
+
+  Simulation(const fc::Scene& scene_, double dt_)
+      : scene(scene_), world(fc::world::build_world(scene)), dt(dt_), resting(scene, world, dt_) {}
+  Simulation(const std::string& text, double dt_) : Simulation(read(text), dt_) {}
+
+  static fc::Scene read(const std::string& text) {
+    const auto file = scratch("scenes") / "scene.yaml";
+    std::ofstream(file) << text;
+    return fc::read_scene({file, {}, {}, 5});
+  }
+  void step(const fc::world::Listeners& listeners = {}) {
+    last = resting.step(world, listeners);
+    ++frame;
+    lost += last.step.lost_time;
+    steered += last.steering_energy;
+    smallest_gap = std::min(smallest_gap, last.step.min_gap);
+    penetration = std::max(penetration, last.step.max_penetration);
+  }
+  void run(double seconds) {
+    const int frames = static_cast<int>(std::lround(seconds / dt));
+    for (int i = 0; i < frames; ++i) step();
+  }
+  double time() const { return frame * dt; }
+  const fc::RigidBody& body(int i) const { return world.bodies[static_cast<std::size_t>(i)].state; }
+  double kinetic() const {
+    double sum = 0;
+    for (const auto& b : world.bodies) sum += b.state.kinetic_energy();
+    return sum;
+  }
+  double potential() const {  // J, zero at the world's origin
+    double sum = 0;
+    for (const auto& b : world.bodies)
+      if (!b.state.is_static()) sum -= b.state.mass * world.effects.gravity->dot(b.state.position);
+    return sum;
+  }
+  double energy() const { return kinetic() + potential(); }
+};
+
+}  // namespace fc_test
