@@ -178,8 +178,9 @@ class Stepper {
       if (-lcp::contact_velocity(local.states, contact) <= world_.rest_speed) contact.restitution = 0;
   }
   // Chapter 5: a body that was stopped against gravity, by something that does not fall itself, does not fall
-  // for the rest of the frame. From the ground up, until nothing more is supported.
-  void support(const Local& local, const std::vector<lcp::Impulse>& impulses) {
+  // for the rest of the frame; what gravity would still have done along the contact, it has done at once.
+  // From the ground up, until nothing more is supported.
+  void support(Local& local, const std::vector<lcp::Impulse>& impulses, double now) {
     const Vec3& gravity = *world_.effects.gravity;
     for (bool more = true; more;) {
       more = false;
@@ -192,6 +193,8 @@ class Stepper {
         const bool falls = world_.yields(lower) && !world_.bodies[lower].supported;
         if (falls || world_.bodies[upper].supported || !world_.yields(upper)) continue;
         world_.bodies[upper].supported = more = true;
+        local.states[static_cast<std::size_t>(pull > 0 ? contact.body_a : contact.body_b)].velocity +=
+            (dt_ - now) * (gravity - pull * contact.normal);
       }
     }
   }
@@ -243,7 +246,7 @@ void Stepper::solve(const Island& island, double now) {
       if (body.held) report_.lost_time = std::max(report_.lost_time, now - body.time);
       changed.push_back(island.bodies[i]);
     }
-  if (world_.rest_speed > 0 && world_.effects.gravity) support(local, impact.impulses);
+  if (world_.rest_speed > 0 && world_.effects.gravity) support(local, impact.impulses, now);
   if (world_.effects.sleep) wake(world_, now, changed, report_);
   for (const int body : changed) {
     const auto place = std::find(island.bodies.begin(), island.bodies.end(), body) - island.bodies.begin();

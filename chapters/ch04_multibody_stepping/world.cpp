@@ -117,7 +117,7 @@ ca::Motion World::motion(int body, double time) const {
   ca::Motion motion(as_it_moves(b, state));
   if (b.held || b.asleep || state.is_static()) return motion;
   add_effects(body, motion);
-  if (b.free) turn_on(motion.spin_drag, time - b.time, motion.free_start, motion.free_rate);
+  if (b.free && !b.steered) turn_on(motion.spin_drag, time - b.time, motion.free_start, motion.free_rate);
   return motion;
 }
 
@@ -133,7 +133,7 @@ void World::add_forces(const Body& body, ca::Motion& motion) const {
 void World::add_effects(int body, ca::Motion& motion) const {
   const Body& b = bodies[body];
   add_forces(b, motion);
-  if (b.free) {
+  if (b.free && !b.steered) {  // while it is steered its spin is constant: so is its energy
     motion.free = b.free;
     motion.free_start = b.free_start;
     motion.free_rate = b.free_rate;
@@ -183,8 +183,15 @@ void World::carry(int body, double time, double name) {
   Body& b = bodies[body];
   const double elapsed = time - b.time;
   b.state = state_at(body, time);
-  if (b.free && !b.held)
+  if (b.free && b.steered) {  // from here on it turns freely again
+    ca::Motion motion(b.state);
+    motion.turn_freely(principal[b.shape]);
+    b.free = motion.free;
+    b.free_start = 0;
+    b.free_rate = 1;
+  } else if (b.free && !b.held) {
     turn_on(effects.drag ? effects.drag->angular : 0, elapsed, b.free_start, b.free_rate);
+  }
   b.time = name;
 }
 

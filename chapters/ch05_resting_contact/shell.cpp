@@ -264,9 +264,11 @@ double Shell::search(const world::World& world, ShellPair& pair, const Pose& a, 
                                 kRough)
               .lower;
     std::vector<ca::FeaturePair> features;
+    double of_features = gap;  // certified, too, but to a sixteenth of the distance that is asked for
     if (gap <= envelope_)
-      features =
-          world::near_features(world, pair.a, pair.b, pose, a.position, (1 + kSearchAgain) * envelope_, &gap);
+      features = world::near_features(world, pair.a, pair.b, pose, a.position, (1 + kSearchAgain) * envelope_,
+                                      &of_features);
+    gap = std::max(gap, of_features);
     for (const ca::FeaturePair& f : features) {
       const bool of_b = f.kind_b == ca::FeatureKind::face;
       const auto key = static_cast<std::uint64_t>(f.kind_a) << 62 |
