@@ -23,6 +23,7 @@ Resting::Resting(const Scene& scene, world::World& world, double dt, const RestO
       options_(options),
       frame_(dt),
       dt_(dt),
+      is_far_(world.bodies.size(), 0),
       still_(world.bodies.size(), 0),
       place_(world.bodies.size(), -1) {
   world.touch = shell_.envelope();
@@ -35,6 +36,8 @@ RestReport Resting::step(world::World& world, const world::Listeners& listeners)
   report.step.min_gap = report.smallest_gap = std::numeric_limits<double>::infinity();
   const int level = std::max(0, halvings_ - 1), parts = 1 << level;  // half of what the last frame needed
   halvings_ = level;
+  was_far_.swap(is_far_);
+  is_far_.assign(world.bodies.size(), 0);
   for (int part = 0; part < parts; ++part)
     advance(world, {frame_ / parts * part, frame_ / parts, level}, listeners, report);
   fall_asleep(world, report);

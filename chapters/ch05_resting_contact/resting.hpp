@@ -105,6 +105,8 @@ class Resting {
   int halvings_ = 0;   // with which the next frame begins
   std::array<std::vector<world::Body>, kMostHalvings + 1> saved_;  // as they were when a part began
 
+  std::vector<char> is_far_,
+      was_far_;                // bodies that are put back far in this frame, and were in the last one
   std::vector<double> still_;  // s, for how long each body has been carried, and slow
 
   // Of the frame at hand, for each body: as it was given, and with the velocity that gravity will have made

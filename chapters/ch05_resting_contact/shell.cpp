@@ -14,6 +14,9 @@ namespace {
 // gap may be at a point of a patch.
 constexpr double kSearchAgain = 1.0 / 4, kSlack = 1.0 / 64, kFar = 4;
 
+// Of the envelope: with a certified gap below this a pair is searched again, too.
+constexpr double kLeastKnown = 1.0 / 16;
+
 // How rough the distance of meshes may be that are not in each other's shell, and how far it is asked for.
 constexpr double kRough = 0.5, kNever = std::numeric_limits<double>::infinity();
 
@@ -131,8 +134,11 @@ void Shell::update(const world::World& world, ShellPair& pair) {
         pair.axis_known = true;
         pair.gap = std::max(pair.gap, pair.axis_gap);
       }
-      keep(pair, a, b);
-      return;
+      // A bound that says too little would let the way come nearer than it may: see need().
+      if (way == 0 || pair.gap > kLeastKnown * envelope_) {
+        keep(pair, a, b);
+        return;
+      }
     }
     if (convex(world, pair)) {
       pair.axis_gap = axis_gap(world, pair, a, b);

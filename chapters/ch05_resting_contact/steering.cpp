@@ -204,7 +204,8 @@ bool Resting::put_back(world::World& world, RestReport& report) {
         const double way = (1 - full.share) * dt_ * (full.linear.norm() + track.reach * full.angular.norm());
         if (way > kMostPutBack * shell_.envelope() && !full.far) {
           full.far = true;
-          if (++far > most_far) return false;
+          if (was_far_[at(number)] || ++far > most_far) return false;
+          is_far_[at(number)] = 1;
         }
         if (!body.steered) body.steer_velocity = body.steer_spin = Vec3::Zero();
         body.steered = true;
@@ -264,10 +265,12 @@ bool Resting::mend(world::World& world, ShellPair& pair, double time) {
   double gap_there = gap;
   const bool between = gap >= need(world, pair);  // it is on the way that they come too near
   if (overlaps || between) {
-    // Contacts of a pose that will not be: an overlap shows no normal to go by.
+    // Contacts of a pose that will not be: an exact solution goes by those that it meets before.
     if (!is_crowded_pair(pair)) shell_.contacts().resize(before);
     const ca::Motion motion_a = world.motion(pair.a, 0), motion_b = world.motion(pair.b, 0);
     gap_there = shell_.search_at(world, pair, motion_a.pose_at(time), motion_b.pose_at(time));
+    pair.first = static_cast<int>(before);
+    pair.count = static_cast<int>(shell_.contacts().size() - before);
   }
   const double fast = shell_.envelope() / dt_;
   for (int i = pair.first; i < pair.first + pair.count; ++i) {
