@@ -157,6 +157,35 @@ TEST(Path, ProvesOnlyWhatIsClear) {
   EXPECT_GT(turning, 50) << "pairs that turn fast, and together";
 }
 
+// What is known of a pair's gap from the frame before, moved on, is never more than it is; and where it says
+// so little that the way's proof would be let come near to an overlap, it is searched anew.
+TEST(Shell, KnowsSmallGapsWell) {
+  Random random(5);
+  const double envelope = 2e-3;
+  const char* const shapes[] = {"box", "slab", "pill", "wedge"};
+  int small = 0, kept = 0;
+  for (int trial = 0; trial < 3000; ++trial) {
+    fc::world::World world = two(shapes[random.source() % 4], shapes[random.source() % 4]);
+    if (!place(world, random, 2e-4)) continue;
+    Shell shell(world, envelope);
+    fc::RigidBody &a = world.bodies[0].state, &b = world.bodies[1].state;
+    shell.find(world, {{a.position, 0}, {b.position, 0}});
+    b.position += 1e-4 * random.vector();
+    const Vec3 turn = 2e-4 * random.vector();
+    b.orientation = (Quat(1, turn.x(), turn.y(), turn.z()) * b.orientation).normalized();
+    const double gap = distance(world, a.pose(), b.pose());
+    if (gap < 1e-6) continue;
+    shell.find(world, {{a.position, 0}, {b.position, 0}});
+    const ShellPair& pair = shell.pairs()[0];
+    EXPECT_LE(pair.gap, gap + 1e-9) << "trial " << trial;
+    EXPECT_GE(pair.gap, std::min(envelope / 16, gap - 1e-7)) << "trial " << trial;
+    small += pair.gap < envelope / 16;
+    kept += shell.searched() == 0;
+  }
+  EXPECT_GT(small, 300);
+  EXPECT_GT(kept, 300);
+}
+
 // A block that tips over an edge on a smooth floor: no force acts sideways, so its centre falls straight
 // down, h(t) = b cos t + a sin t over the edge (a, b: half its width and height), and energy tells its spin:
 //   m g (h_0 - h) = m h'^2 w^2 / 2 + I w^2 / 2.
