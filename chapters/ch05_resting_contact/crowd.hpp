@@ -95,7 +95,8 @@ class Rows {
 
   static std::size_t at(int index) { return static_cast<std::size_t>(index); }
   static Real along(const Line& line, const Row& row, const std::vector<Vec8>& y) {
-    return (line.a.cwiseProduct(y[at(row.a)]) + line.b.cwiseProduct(y[at(row.b)])).sum();
+    const Vec8 sum = line.a.cwiseProduct(y[at(row.a)]) + line.b.cwiseProduct(y[at(row.b)]);
+    return (sum.template head<4>() + sum.template tail<4>()).sum();
   }
   static void apply(const Line& line, const Row& row, Real by, std::vector<Vec8>& y) {
     y[at(row.a)] += by * line.a;
