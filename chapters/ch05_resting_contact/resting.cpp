@@ -56,6 +56,7 @@ void Resting::advance(world::World& world, const Part& part, const world::Listen
   solve_crowd(world, report);       // those of which there are too many
   steer(world, report);             // gaps
   if (!prove(world, report) && !put_back(world, report) && part.level < kMostHalvings) {  // the way
+    keep_impulses();  // guesses for the halves
     world.bodies = saved_[at(part.level)];
     halvings_ = std::max(halvings_, part.level + 1);
     for (const double half : {0.0, 0.5 * part.length})
@@ -265,6 +266,11 @@ void Resting::take_course(world::World& world, int number, bool pushed, bool sup
   if (body.asleep && state.velocity.isZero(0) && state.spin.isZero(0)) return;  // nothing wakes it
   body.supported = supported;
   world.set_course(number, state, 0);
+}
+
+void Resting::keep_impulses() {
+  for (int row = 0; row < crowd_.rows(); ++row)
+    shell_.contacts()[at(contact_of_[at(row)])].impulse = crowd_.impulse(row);
 }
 
 void Resting::tell(const world::World& world, const world::Listeners& listeners, RestReport& report) {

@@ -92,6 +92,7 @@ class Resting {
   void finish(world::World& world, RestReport& report);
   bool mend(world::World& world, ShellPair& pair, double time);
   void stop_crowd(world::World& world, RestReport& report);
+  void keep_impulses();
   void tell(const world::World& world, const world::Listeners& listeners, RestReport& report);
   static void add(const world::StepReport& part, world::StepReport& all);
   static world::Listeners from(double start, const world::Listeners& listeners);
