@@ -88,6 +88,7 @@ class Resting {
   bool concerns(const world::World& world, const ShellPair& pair) const;
   double need(const world::World& world, const ShellPair& pair) const;
   bool prove(world::World& world, RestReport& report);
+  void check_changed(const world::World& world, RestReport& report);
   bool put_back(world::World& world, RestReport& report);
   void finish(world::World& world, RestReport& report);
   bool mend(world::World& world, ShellPair& pair, double time);
@@ -106,9 +107,10 @@ class Resting {
   int halvings_ = 0;   // with which the next frame begins
   std::array<std::vector<world::Body>, kMostHalvings + 1> saved_;  // as they were when a part began
 
-  std::vector<char> is_far_,
-      was_far_;                // bodies that are put back far in this frame, and were in the last one
-  std::vector<double> still_;  // s, for how long each body has been carried, and slow
+  // Of each body: whether it is put back far in this frame, and was in the last one; for how long (s) it has
+  // been carried, and slow.
+  std::vector<char> is_far_, was_far_;
+  std::vector<double> still_;
 
   // Of the frame at hand, for each body: as it was given, and with the velocity that gravity will have made
   // of it by the frame's end; its way through the frame; whether it is in a crowd, in an island (2: and was
@@ -122,7 +124,7 @@ class Resting {
   // Of bodies that are put back: their whole way in this part of the frame, and the share that is left.
   struct FullWay {
     double share = 1;
-    bool far = false;
+    bool far = false;                                    // it is put back by more than all may be
     Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();  // m/s, rad/s
   };
   std::vector<FullWay> full_ways_;

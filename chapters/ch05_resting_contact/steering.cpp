@@ -26,12 +26,6 @@ constexpr double kFloor = 1.0 / 64;
 
 constexpr int kMostRounds = 2;  // in which ways are mended
 
-// A body that is put back goes so much of the way that is free; or none, if that is less than the second.
-constexpr double kShareOfFree = 0.9, kLeastShare = 0.1;
-constexpr double kMostPutBack = 4;  // envelopes
-constexpr double kMostFar = 0.02;
-constexpr int kMostPutBackRounds = 20;
-
 }  // namespace
 
 void Resting::follow(const world::World& world, int body) {
@@ -181,59 +175,6 @@ bool Resting::prove(world::World& world, RestReport& report) {
   return open.empty();
 }
 
-// Ways of a crowd that are not proved yet: their bodies go less far in this part of the frame, as if
-// positions alone had been put back, and so do those that would run into them. Velocities stay. Whether
-// nobody has to be put back by more than kMostPutBack envelopes.
-bool Resting::put_back(world::World& world, RestReport& report) {
-  std::vector<ShellPair>& pairs = shell_.pairs();
-  full_ways_.assign(world.bodies.size(), {});
-  const int most_far = static_cast<int>(kMostFar * std::count(crowded_.begin(), crowded_.end(), 1));
-  int far = 0;
-  for (int round = 0; !open_.empty(); ++round) {
-    for (const auto& [p, time] : open_) {
-      if (!is_crowded_pair(pairs[p]) || round == kMostPutBackRounds) return false;
-      for (const int number : {pairs[p].a, pairs[p].b}) {
-        if (!crowded_[at(number)] || !tracks_[at(number)].moves) continue;
-        world::Body& body = world.bodies[number];
-        const Track& track = tracks_[at(number)];
-        FullWay& full = full_ways_[at(number)];
-        if (full.share == 1)
-          full = {1, full.far, (track.end.position - track.start.position) / dt_, track.spin};
-        const double share = full.share * kShareOfFree * time / dt_;
-        full.share = share < kLeastShare ? 0 : share;
-        const double way = (1 - full.share) * dt_ * (full.linear.norm() + track.reach * full.angular.norm());
-        if (way > kMostPutBack * shell_.envelope() && !full.far) {
-          full.far = true;
-          if (was_far_[at(number)] || ++far > most_far) return false;
-          is_far_[at(number)] = 1;
-        }
-        if (!body.steered) body.steer_velocity = body.steer_spin = Vec3::Zero();
-        body.steered = true;
-        body.steer_velocity += full.share * full.linear - (track.end.position - track.start.position) / dt_;
-        body.steer_spin += full.share * full.angular - track.spin;
-        ++report.put_back;
-        follow(world, number);
-      }
-    }
-    shell_.extend(world, sweeps_);
-    take(world);
-    open_.clear();
-    for (std::size_t p = 0; p < pairs.size(); ++p) {
-      ShellPair& pair = pairs[p];
-      if (!changed_[at(pair.a)] && !changed_[at(pair.b)]) continue;
-      pair.proved = false;
-      if (!concerns(world, pair)) continue;
-      ++report.checked;
-      const PathVerdict verdict =
-          check_path(world, shell_, pair, tracks_[at(pair.a)], tracks_[at(pair.b)], dt_, need(world, pair));
-      pair.proved = verdict.clear;
-      if (!verdict.clear) open_.emplace_back(p, verdict.time);
-    }
-    std::fill(changed_.begin(), changed_.end(), 0);
-  }
-  return true;
-}
-
 // The way is as good as it gets.
 void Resting::finish(world::World& world, RestReport& report) {
   if (std::any_of(open_.begin(), open_.end(),
@@ -287,45 +228,6 @@ bool Resting::mend(world::World& world, ShellPair& pair, double time) {
   }
   take(world);
   return !known || overlaps;
-}
-
-// What could not be mended: the crowd stands still for this part of the frame, and only its gaps are put
-// right. Whoever cannot even do that is not moved at all, nor whoever would then run into it.
-void Resting::stop_crowd(world::World& world, RestReport& report) {
-  crowd_.forget_displacements();
-  for (int number = 0; number < static_cast<int>(crowded_.size()); ++number) {
-    if (!crowded_[at(number)]) continue;
-    world::Body& body = world.bodies[number];
-    body.held = true;
-    body.steered = false;
-    ++report.stopped;
-    follow(world, number);
-  }
-  steer(world, report);
-  std::fill(changed_.begin(), changed_.end(), 1);
-  std::vector<ShellPair>& pairs = shell_.pairs();
-  std::vector<std::size_t> open;
-  do {
-    open.clear();
-    for (std::size_t p = 0; p < pairs.size(); ++p) {
-      ShellPair& pair = pairs[p];
-      if (!changed_[at(pair.a)] && !changed_[at(pair.b)]) continue;
-      pair.proved = false;
-      if (!concerns(world, pair)) continue;
-      ++report.checked;
-      pair.proved =
-          check_path(world, shell_, pair, tracks_[at(pair.a)], tracks_[at(pair.b)], dt_, need(world, pair))
-              .clear;
-      if (!pair.proved && is_crowded_pair(pair)) open.push_back(p);
-    }
-    std::fill(changed_.begin(), changed_.end(), 0);
-    for (const std::size_t p : open)
-      for (const int number : {pairs[p].a, pairs[p].b}) {
-        if (!world.bodies[number].steered) continue;
-        world.bodies[number].steered = false;
-        follow(world, number);
-      }
-  } while (std::any_of(changed_.begin(), changed_.end(), [](char changed) { return changed != 0; }));
 }
 
 }  // namespace fc::resting
