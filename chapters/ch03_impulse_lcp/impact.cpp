@@ -71,18 +71,6 @@ double speed_scale(std::span<const RigidBody> bodies, std::span<const Contact> c
   return scale;
 }
 
-// What an impulse at a body that no impulse moves, but that moves by itself, does to the energy of the other:
-// impulse times that body's velocity along it, J.
-double kinematic_work(std::span<const RigidBody> bodies, const Contact& contact, double impulse) {
-  double work = 0;
-  for (const bool on_b : {false, true}) {
-    const RigidBody& body = bodies[static_cast<std::size_t>(on_b ? contact.body_b : contact.body_a)];
-    if (body.is_static())
-      work += (on_b ? -impulse : impulse) * contact.normal.dot(body.velocity_at(contact.point));
-  }
-  return work;
-}
-
 double fastest_approach(std::span<const RigidBody> bodies, std::span<const Contact> contacts) {
   double fastest = 0;
   for (const Contact& contact : contacts) fastest = std::max(fastest, -contact_velocity(bodies, contact));
@@ -155,6 +143,16 @@ void apply_impulse(std::span<RigidBody> bodies, const Contact& contact, double i
     if (!(on_b ? contact.turns_b : contact.turns_a)) continue;
     body.spin += body.inverse_inertia_world() * (contact.point - body.position).cross(push);
   }
+}
+
+double kinematic_work(std::span<const RigidBody> bodies, const Contact& contact, double impulse) {
+  double work = 0;
+  for (const bool on_b : {false, true}) {
+    const RigidBody& body = bodies[static_cast<std::size_t>(on_b ? contact.body_b : contact.body_a)];
+    if (body.is_static())
+      work += (on_b ? -impulse : impulse) * contact.normal.dot(body.velocity_at(contact.point));
+  }
+  return work;
 }
 
 double approach_rounding(std::span<const RigidBody> bodies, std::span<const Contact> contacts) {

@@ -48,6 +48,10 @@ struct ImpactResult {
 // body that it does not turn (Contact::turns_a, turns_b) not the spin.
 void apply_impulse(std::span<RigidBody> bodies, const Contact& contact, double impulse);
 
+// What an impulse (N s) at a body that no impulse moves, but that moves by itself, does to the energy of the
+// other: impulse times that body's velocity along it, J.
+double kinematic_work(std::span<const RigidBody> bodies, const Contact& contact, double impulse);
+
 // The velocity below which a contact of this set does not count as approaching, in m/s: round-off of the
 // velocities that cancel in v = n.(v_B - v_A), 1e-12 of the fastest of the touching points (each |velocity| +
 // |spin| |arm|). resolve_impact takes the fastest of the whole instant, so that what it leaves is not

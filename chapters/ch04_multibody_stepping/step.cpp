@@ -72,7 +72,8 @@ class Stepper {
     schedule_.begin(boxes);
     std::vector<std::pair<int, int>> pairs;
     schedule_.overlapping_pairs([&](int a, int b) {
-      if (world_.bodies[a].foreseen || world_.bodies[b].foreseen) return;
+      const bool foreseen = world_.bodies[a].foreseen || world_.bodies[b].foreseen;
+      if (foreseen && !is_sensor_pair(world_, a, b)) return;
       if (world_.may_meet(a, b)) pairs.emplace_back(std::min(a, b), std::max(a, b));
     });
     std::sort(pairs.begin(), pairs.end());  // the tree's order is not the bodies'

@@ -147,7 +147,7 @@ RigidBody World::state_at(int body, double time) const {
   if (elapsed == 0 || stays(body)) return state;
   const Body& b = bodies[body];
   ca::Motion motion(as_it_moves(b, state));
-  if (yields(body) && !b.held) add_effects(body, motion);
+  if (yields(body) && !b.held && !b.asleep) add_effects(body, motion);
   state.position = motion.position_at(elapsed);
   if (!b.held) {
     state.velocity = motion.velocity_at(elapsed);
@@ -201,7 +201,7 @@ ca::Motion World::course(int body, double time) const {
   path.position = b.state.position;
   if (stays(body)) return path;
   path.velocity = as_it_moves(b, b.state).velocity;
-  if (yields(body) && !b.held) add_forces(b, path);
+  if (yields(body) && !b.held && !b.asleep) add_forces(b, path);
   const double elapsed = time - b.time;
   const Vec3 position = path.position_at(elapsed), velocity = path.velocity_at(elapsed);
   path.position = position;
@@ -215,7 +215,7 @@ Bounds World::swept_bounds(int body, double from, double to) const {
   const double end = to - from;
   // What the body fills about its centre: a box if it does not turn, a ball if it does.
   const Body& b = bodies[body];
-  const bool turns = !stays(body) && b.state.spin != Vec3::Zero();
+  const bool turns = !stays(body) && as_it_moves(b, b.state).spin != Vec3::Zero();
   const bool ball = turns || ball_radius[b.shape] > 0;
   const Vec3 half = ball ? Vec3(Vec3::Constant(shapes[b.shape].reach))
                          : Vec3(b.state.orientation.toRotationMatrix().cwiseAbs() * half_extents[b.shape]);

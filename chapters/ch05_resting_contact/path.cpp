@@ -46,7 +46,7 @@ Track track_of(const world::World& world, int body, const Pose& start, double dt
   track.velocity = motion.velocity;
   track.acceleration = motion.acceleration;
   track.spin = motion.spin;
-  track.spin_rate = motion.spin_rate;
+  track.spin_rate = motion.spin_bound();
   track.steady = motion.steady();
   return track;
 }

@@ -34,6 +34,13 @@ void Resting::check_changed(const world::World& world, RestReport& report) {
   std::fill(changed_.begin(), changed_.end(), 0);
 }
 
+// This part of the frame is taken back: nobody was put back far in it.
+bool Resting::give_up_put_back() {
+  for (std::size_t body = 0; body < full_ways_.size(); ++body)
+    if (full_ways_[body].far) is_far_[body] = 0;
+  return false;
+}
+
 // Ways of a crowd that are not proved yet: their bodies go less far in this part of the frame, as if
 // positions alone had been put back, and so do those that would run into them. Velocities stay. False if
 // somebody would have to be put back too far: then the world is to be begun anew.
@@ -43,9 +50,11 @@ bool Resting::put_back(world::World& world, RestReport& report) {
   int may_go_far = static_cast<int>(kMostFar * std::count(crowded_.begin(), crowded_.end(), 1));
   for (int round = 0; !open_.empty(); ++round) {
     for (const auto& [p, time] : open_) {
-      if (!is_crowded_pair(pairs[p]) || round == kMostRounds) return false;
+      if (!is_crowded_pair(pairs[p]) || round == kMostRounds) return give_up_put_back();
+      bool any = false;
       for (const int number : {pairs[p].a, pairs[p].b}) {
         if (!crowded_[at(number)] || !tracks_[at(number)].moves) continue;
+        any = true;
         const Track& track = tracks_[at(number)];
         const Vec3 velocity = (track.end.position - track.start.position) / dt_;  // on the whole
         FullWay& full = full_ways_[at(number)];
@@ -57,7 +66,7 @@ bool Resting::put_back(world::World& world, RestReport& report) {
         full.share = share < kLeastShare ? 0 : share;
         const double way = (1 - full.share) * dt_ * (full.linear.norm() + track.reach * full.angular.norm());
         if (way > kMostPutBack * shell_.envelope() && !full.far) {
-          if (was_far_[at(number)] || may_go_far-- == 0) return false;
+          if (was_far_[at(number)] || is_far_[at(number)] || may_go_far-- == 0) return give_up_put_back();
           full.far = true;
           is_far_[at(number)] = 1;
         }
@@ -69,6 +78,7 @@ bool Resting::put_back(world::World& world, RestReport& report) {
         ++report.put_back;
         follow(world, number);
       }
+      if (!any) return give_up_put_back();  // who comes is driven
     }
     shell_.extend(world, sweeps_);
     take(world);
@@ -90,6 +100,8 @@ void Resting::stop_crowd(world::World& world, RestReport& report) {
     follow(world, number);
   }
   steer(world, report);
+  shell_.extend(world, sweeps_);
+  take(world);
   std::fill(changed_.begin(), changed_.end(), 1);
   do {
     check_changed(world, report);
@@ -97,8 +109,12 @@ void Resting::stop_crowd(world::World& world, RestReport& report) {
       const ShellPair& pair = shell_.pairs()[p];
       if (!is_crowded_pair(pair)) continue;
       for (const int number : {pair.a, pair.b}) {
-        if (!world.bodies[number].steered) continue;
-        world.bodies[number].steered = false;
+        if (world.bodies[number].steered)
+          world.bodies[number].steered = false;
+        else if (tracks_[at(number)].moves)
+          world.bodies[number].held = true;  // driven, or from outside: it would go through who stands
+        else
+          continue;
         follow(world, number);
       }
     }

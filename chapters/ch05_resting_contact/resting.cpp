@@ -56,7 +56,7 @@ void Resting::advance(world::World& world, const Part& part, const world::Listen
   solve_crowd(world, report);       // those of which there are too many
   steer(world, report);             // gaps
   if (!prove(world, report) && !put_back(world, report) && part.level < kMostHalvings) {  // the way
-    keep_impulses();  // guesses for the halves
+    keep_for_halves();
     world.bodies = saved_[at(part.level)];
     halvings_ = std::max(halvings_, part.level + 1);
     for (const double half : {0.0, 0.5 * part.length})
@@ -129,13 +129,14 @@ void Resting::begin(world::World& world, const Part& part, RestReport& report) {
     body.supported = body.steered = body.foreseen = false;
     given_.push_back(body.state);
     start_.push_back(body.state);
-    if (world.effects.gravity && !body.state.is_static() && !body.was_held)
+    if (world.effects.gravity && !body.state.is_static() && !body.was_held && !body.asleep)
       start_.back().velocity += dt_ * *world.effects.gravity;
     const bool moves = !world.stays(static_cast<int>(start_.size()) - 1);
-    sweeps_.push_back({body.state.position, 0});
+    sweeps_.push_back({body.state.position, 0, 0});
     if (!moves) continue;
     sweeps_.back().end += dt_ * start_.back().velocity;
     sweeps_.back().turn = dt_ * body.state.spin.norm();
+    if (world.effects.gravity) sweeps_.back().sag = 0.125 * dt_ * dt_ * world.effects.gravity->norm();
   }
   shell_.find(world, sweeps_);
   wake_touched(world, report);
@@ -204,6 +205,20 @@ double Resting::allowed(ShellContact& c) const {
   return std::max(0.0, c.contact.gap - middle) / dt_;
 }
 
+// Bodies that are driven into what cannot give way stand still for this part of the frame; whether there are.
+bool Resting::stop_driven(world::World& world, Island& island, RestReport& report) {
+  bool any = false;
+  for (std::size_t k = 0; k < island.bodies.size(); ++k) {
+    const int number = island.numbers[k];
+    if (!world.carries(number)) continue;
+    island.bodies[k].velocity = island.bodies[k].spin = Vec3::Zero();
+    world.bodies[number].held = any = true;
+    report.step.lost_time = std::max(report.step.lost_time, dt_);
+    follow(world, number);
+  }
+  return any;
+}
+
 void Resting::solve(world::World& world, const std::vector<int>& members, RestReport& report) {
   const Stopwatch watch;
   std::vector<ShellContact>& shell = shell_.contacts();
@@ -215,8 +230,9 @@ void Resting::solve(world::World& world, const std::vector<int>& members, RestRe
     allowed_.push_back(allowed(c));
     impulses_.push_back(c.impulse);
   }
-  const IslandResult result =
-      solver_.solve(island.bodies, island.contacts, allowed_, impulses_, options_.small);
+  IslandResult result = solver_.solve(island.bodies, island.contacts, allowed_, impulses_, options_.small);
+  if (!result.solved && stop_driven(world, island, report))
+    result = solver_.solve(island.bodies, island.contacts, allowed_, impulses_, options_.small);
   FC_CHECK(result.solved, "the resting contacts of an island could not be solved");
   const int rows = static_cast<int>(members.size());
   report.sweeps += result.sweeps;
@@ -268,7 +284,9 @@ void Resting::take_course(world::World& world, int number, bool pushed, bool sup
   world.set_course(number, state, 0);
 }
 
-void Resting::keep_impulses() {
+// Guesses, and who is to bounce.
+void Resting::keep_for_halves() {
+  for (ShellContact& contact : shell_.contacts()) contact.bounce_next = contact.bounce;
   for (int row = 0; row < crowd_.rows(); ++row)
     shell_.contacts()[at(contact_of_[at(row)])].impulse = crowd_.impulse(row);
 }
@@ -291,6 +309,7 @@ void Resting::tell(const world::World& world, const world::Listeners& listeners,
     const ShellContact& c = shell_.contacts()[i];
     if (!(taken_[i] || row_[i] >= 0) || !(c.impulse > 0)) continue;
     ++report.step.impacts;
+    report.step.kinematic_work += lcp::kinematic_work(start_, c.contact, c.impulse);
     any = true;
     if (listeners.impact) listeners.impact({0, c.contact, {0, 0, c.before, c.after, c.impulse}});
   }

@@ -73,6 +73,7 @@ class Resting {
   bool is_crowded_pair(const ShellPair& pair) const { return crowded_[at(pair.a)] || crowded_[at(pair.b)]; }
   void take(const world::World& world);
   void solve(world::World& world, const std::vector<int>& members, RestReport& report);
+  bool stop_driven(world::World& world, Island& island, RestReport& report);
   void solve_crowd(world::World& world, RestReport& report);
   void add_row(int contact);
   double allowed(ShellContact& contact) const;
@@ -90,10 +91,11 @@ class Resting {
   bool prove(world::World& world, RestReport& report);
   void check_changed(const world::World& world, RestReport& report);
   bool put_back(world::World& world, RestReport& report);
+  bool give_up_put_back();
   void finish(world::World& world, RestReport& report);
   bool mend(world::World& world, ShellPair& pair, double time);
   void stop_crowd(world::World& world, RestReport& report);
-  void keep_impulses();
+  void keep_for_halves();
   void tell(const world::World& world, const world::Listeners& listeners, RestReport& report);
   static void add(const world::StepReport& part, world::StepReport& all);
   static world::Listeners from(double start, const world::Listeners& listeners);

@@ -75,7 +75,7 @@ void Shell::list_pairs(const world::World& world, const std::vector<Sweep>& swee
     const world::Body& body = world.bodies[i];
     const double reach = world.shapes[body.shape].reach;
     const Vec3 half = poses_[i].rotation.cwiseAbs() * world.half_extents[body.shape];
-    const double room = envelope_ + std::min(sweeps[i].turn, 2.0) * reach;
+    const double room = envelope_ + std::min(sweeps[i].turn, 2.0) * reach + sweeps[i].sag;
     const Vec3 margin = half.cwiseMin(Vec3::Constant(reach)) + Vec3::Constant(room);
     boxes[i] = {poses_[i].position.cwiseMin(sweeps[i].end) - margin,
                 poses_[i].position.cwiseMax(sweeps[i].end) + margin};

@@ -52,10 +52,11 @@ struct ShellPair {
   Vec3 axis_at(const Pose& a_now, const Pose& b_now) const { return (of_b ? b_now : a_now).rotation * axis; }
 };
 
-// How far a body goes within a frame, at most: its centre in a straight line, and its axes.
+// How far a body goes within a frame, at most: its centre near a straight line, and its axes.
 struct Sweep {
   Vec3 end = Vec3::Zero();  // m
   double turn = 0;          // rad
+  double sag = 0;           // m, by how much the centre leaves the line
 };
 
 class Shell {

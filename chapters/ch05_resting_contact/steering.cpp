@@ -30,7 +30,9 @@ constexpr int kMostRounds = 2;  // in which ways are mended
 
 void Resting::follow(const world::World& world, int body) {
   tracks_[at(body)] = track_of(world, body, shell_.poses()[at(body)], dt_);
-  sweeps_[at(body)] = {tracks_[at(body)].end.position, tracks_[at(body)].spin_rate * dt_};
+  const Track& track = tracks_[at(body)];
+  sweeps_[at(body)] = {track.end.position, track.spin_rate * dt_,
+                       0.125 * dt_ * dt_ * track.acceleration.norm()};
   changed_[at(body)] = 1;
 }
 

@@ -223,6 +223,30 @@ TEST(Program, NothingOverlapsInChapterFoursScenes) {
   }
 }
 
+// A driven plate pushes two boxes against a wall, and cannot: nobody is run through, neither by the exact
+// solution nor in a crowd, and what the plate does on the way is told.
+TEST(Driven, APlateThatCannotGoOnIsStopped) {
+  for (const int crowd : {400, 3}) {
+    Simulation s(
+        "step: {dt: 0.01, duration: 1}\nenvelope: 5.0e-4\nshapes:\n"
+        "  box: {box: {size: [1, 1, 1]}, mass: 2}\nbodies:\n"
+        "  - {shape: box, kinematic: true, position: [-1.5, 0, 0], velocity: [1, 0, 0]}\n"
+        "  - {shape: box, position: [0, 0, 0]}\n  - {shape: box, position: [1.2, 0, 0]}\n"
+        "  - {shape: box, static: true, position: [3, 0, 0]}\n",
+        1 / 60.0, {.crowd = crowd});
+    double work = 0;
+    for (int frame = 0; frame < 180; ++frame) {
+      s.run(1 / 60.0);
+      work += s.last.step.kinematic_work;
+      for (int body = 0; body < 3; ++body)
+        ASSERT_GT(s.body(body + 1).position.x() - s.body(body).position.x(), 1)
+            << crowd << ", frame " << frame;
+    }
+    EXPECT_GT(s.smallest_gap, 0) << crowd;
+    EXPECT_GE(work, 1) << crowd << ": J, of the first push";
+  }
+}
+
 // What meets in the air falls on: nothing carries it. And a wall carries nothing.
 TEST(Support, NeedsSomethingThatDoesNotFall) {
   const std::string shapes =
