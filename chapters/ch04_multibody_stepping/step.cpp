@@ -179,7 +179,8 @@ class Stepper {
       if (-lcp::contact_velocity(local.states, contact) <= world_.rest_speed) contact.restitution = 0;
   }
   // Chapter 5: a body that was stopped against gravity, by something that does not fall itself, does not fall
-  // for the rest of the frame; what gravity would still have done along the contact, it has done at once.
+  // for the rest of the frame; what gravity would still have done along the contact, it has done at once,
+  // unless something is in the way.
   // From the ground up, until nothing more is supported.
   void support(Local& local, const std::vector<lcp::Impulse>& impulses, double now) {
     const Vec3& gravity = *world_.effects.gravity;
@@ -194,8 +195,15 @@ class Stepper {
         const bool falls = world_.yields(lower) && !world_.bodies[lower].supported;
         if (falls || world_.bodies[upper].supported || !world_.yields(upper)) continue;
         world_.bodies[upper].supported = more = true;
-        local.states[static_cast<std::size_t>(pull > 0 ? contact.body_a : contact.body_b)].velocity +=
-            (dt_ - now) * (gravity - pull * contact.normal);
+        const int place = pull > 0 ? contact.body_a : contact.body_b;
+        const Vec3 more_velocity = (dt_ - now) * (gravity - pull * contact.normal);
+        const bool into =
+            std::any_of(local.contacts.begin(), local.contacts.end(), [&](const lcp::Contact& c) {
+              const double along = c.normal.dot(more_velocity);
+              const double rounding = 1e-12 * more_velocity.norm();
+              return (c.body_a == place && along > rounding) || (c.body_b == place && along < -rounding);
+            });
+        if (!into) local.states[static_cast<std::size_t>(place)].velocity += more_velocity;
       }
     }
   }
