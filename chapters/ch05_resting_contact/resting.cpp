@@ -52,23 +52,66 @@ void Resting::advance(world::World& world, const Part& part, const world::Listen
   begin(world, part, report);
   take(world);
   for (const std::vector<int>& members : islands_of(world, shell_.contacts(), taken_))
-    solve(world, members, report);  // contacts that last
-  solve_crowd(world, report);       // those of which there are too many
-  steer(world, report);             // gaps
-  if (!prove(world, report) && !put_back(world, report) && part.level < kMostHalvings) {  // the way
-    keep_for_halves();
-    world.bodies = saved_[at(part.level)];
-    halvings_ = std::max(halvings_, part.level + 1);
-    for (const double half : {0.0, 0.5 * part.length})
-      advance(world, {part.start + half, 0.5 * part.length, part.level + 1}, listeners, report);
-    return;
-  }
-  finish(world, report);
-  const world::Listeners later = from(part.start, listeners);
-  tell(world, later, report);
-  add(world::step(world, dt_, later), report.step);  // chapter 4: everything else
+    solve(world, members, report);                                      // contacts that last
+  solve_crowd(world, report);                                           // those of which there are too many
+  steer(world, report);                                                 // gaps
+  const bool proved = prove(world, report) || put_back(world, report);  // the way
+  if (!proved && part.level < kMostHalvings) return halve(world, part, listeners, report);
+  if (!finish(world, part, listeners, report)) halve(world, part, listeners, report);  // chapter 4: the rest
 }
 // ANCHOR_END: step
+
+// This part of the frame is taken back, and done in two.
+void Resting::halve(world::World& world, const Part& part, const world::Listeners& listeners,
+                    RestReport& report) {
+  keep_for_halves();
+  world.bodies = saved_[at(part.level)];
+  halvings_ = std::max(halvings_, part.level + 1);
+  for (const double half : {0.0, 0.5 * part.length})
+    advance(world, {part.start + half, 0.5 * part.length, part.level + 1}, listeners, report);
+}
+
+// The way is as good as it gets: chapter 4's step does everything else. False if it had to hold somebody who
+// may go on in halves: nothing is told of this part then.
+bool Resting::finish(world::World& world, const Part& part, const world::Listeners& listeners,
+                     RestReport& report) {
+  const RestReport before = report;
+  settle(world, report);
+  const world::Listeners later = from(part.start, listeners);
+  const auto sighted = world.sighted;
+  told_.clear();
+  world::Listeners first;  // what is told cannot be taken back: it waits
+  if (later.impact)
+    first.impact = [&](const world::ImpactRecord& impact) {
+      told_.emplace_back([&later, impact] { later.impact(impact); });
+    };
+  if (later.sighting)
+    first.sighting = [&](const world::Sighting& sighting) {
+      told_.emplace_back([&later, sighting] { later.sighting(sighting); });
+    };
+  if (later.instant)
+    first.instant = [&](const world::World& now, double time) {
+      told_.emplace_back([&later, &world, bodies = now.bodies, time]() mutable {
+        world.bodies.swap(bodies);
+        later.instant(world, time);
+        world.bodies.swap(bodies);
+      });
+    };
+  const std::vector<world::Body> at_start = later.instant ? world.bodies : std::vector<world::Body>();
+  const world::StepReport rest = world::step(world, dt_, first);
+  if (rest.lost_time > 0 && part.level < kMostHalvings) {
+    report = before;
+    world.sighted = sighted;
+    return false;
+  }
+  std::vector<world::Body> at_end = at_start;
+  if (later.instant) world.bodies.swap(at_end);
+  tell(world, later, report);
+  if (later.instant) world.bodies.swap(at_end);
+  for (const auto& tell_now : told_) tell_now();
+  add(rest, report.step);
+  return true;
+}
 
 // The same listeners, for a part of a frame.
 world::Listeners Resting::from(double start, const world::Listeners& listeners) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 
 #include "ch05_resting_contact/crowd.hpp"
 #include "ch05_resting_contact/envelope.hpp"
@@ -92,7 +93,9 @@ class Resting {
   void check_changed(const world::World& world, RestReport& report);
   bool put_back(world::World& world, RestReport& report);
   bool give_up_put_back();
-  void finish(world::World& world, RestReport& report);
+  void halve(world::World& world, const Part& part, const world::Listeners& listeners, RestReport& report);
+  bool finish(world::World& world, const Part& part, const world::Listeners& listeners, RestReport& report);
+  void settle(world::World& world, RestReport& report);
   bool mend(world::World& world, ShellPair& pair, double time);
   void stop_crowd(world::World& world, RestReport& report);
   void keep_for_halves();
@@ -130,6 +133,7 @@ class Resting {
     Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();  // m/s, rad/s
   };
   std::vector<FullWay> full_ways_;
+  std::vector<std::function<void()>> told_;  // by chapter 4's step, as soon as it may be
   // For each contact of the shell: whether it is a row of this chapter, which one of the crowd (or -1); and
   // its gap at the frame's end.
   std::vector<char> taken_;

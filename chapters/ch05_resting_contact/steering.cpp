@@ -178,7 +178,7 @@ bool Resting::prove(world::World& world, RestReport& report) {
 }
 
 // The way is as good as it gets.
-void Resting::finish(world::World& world, RestReport& report) {
+void Resting::settle(world::World& world, RestReport& report) {
   if (std::any_of(open_.begin(), open_.end(),
                   [&](const auto& o) { return is_crowded_pair(shell_.pairs()[o.first]); }))
     stop_crowd(world, report);
