@@ -97,17 +97,16 @@ bool Resting::finish(world::World& world, const Part& part, const world::Listene
         world.bodies.swap(bodies);
       });
     };
-  const std::vector<world::Body> at_start = later.instant ? world.bodies : std::vector<world::Body>();
+  std::vector<world::Body> at_start = later.instant ? world.bodies : std::vector<world::Body>();
   const world::StepReport rest = world::step(world, dt_, first);
   if (rest.lost_time > 0 && part.level < kMostHalvings) {
     report = before;
     world.sighted = sighted;
     return false;
   }
-  std::vector<world::Body> at_end = at_start;
-  if (later.instant) world.bodies.swap(at_end);
+  if (later.instant) world.bodies.swap(at_start);  // contacts that last are told as of the start
   tell(world, later, report);
-  if (later.instant) world.bodies.swap(at_end);
+  if (later.instant) world.bodies.swap(at_start);
   for (const auto& tell_now : told_) tell_now();
   add(rest, report.step);
   return true;

@@ -26,7 +26,7 @@ void Resting::wake_touched(world::World& world, RestReport& report) {
     if (a_sleeps == b_sleeps || world.stays(other)) continue;
     const Sweep& sweep = sweeps_[at(other)];
     const double way = (sweep.end - given_[at(other)].position).norm() +
-                       sweep.turn * world.shapes[world.bodies[other].shape].reach;
+                       sweep.turn * world.shapes[world.bodies[other].shape].reach + sweep.sag;
     if (pair.gap - way <= shell_.envelope()) touched[at(joined.root(a_sleeps ? pair.a : pair.b))] = 1;
   }
   for (int body = 0; body < static_cast<int>(touched.size()); ++body) {

@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
   program.parts = {
       {"solvers", "residual and sweeps against forces (forces.csv, heap.csv)",
        [&] { resting::study_solvers(study); }},
-      {"knobs", "the envelope's width and the frame's length ((envelope.csv, step.csv)",
+      {"knobs", "the envelope's width and the frame's length (envelope.csv, step.csv)",
        [&] { resting::study_knobs(study); }},
       {"methods", "events, envelope, time stepping (methods.csv, weights.csv, histories.csv, ball.csv)",
        [&] { resting::study_methods(study); }}};
