@@ -66,6 +66,7 @@ void Resting::halve(world::World& world, const Part& part, const world::Listener
                     RestReport& report) {
   keep_for_halves();
   world.bodies = saved_[at(part.level)];
+  report.step.lost_time = lost_[at(part.level)];
   halvings_ = std::max(halvings_, part.level + 1);
   for (const double half : {0.0, 0.5 * part.length})
     advance(world, {part.start + half, 0.5 * part.length, part.level + 1}, listeners, report);
@@ -183,6 +184,7 @@ void Resting::begin(world::World& world, const Part& part, RestReport& report) {
   shell_.find(world, sweeps_);
   wake_touched(world, report);
   saved_[at(part.level)] = world.bodies;
+  lost_[at(part.level)] = report.step.lost_time;
   for (ShellContact& contact : shell_.contacts()) {
     contact.bounce = std::exchange(contact.bounce_next, 0);
     contact.impulse *= share;

@@ -111,6 +111,7 @@ class Resting {
   double frame_, dt_;  // s, of a frame, and of the part of it at hand
   int halvings_ = 0;   // with which the next frame begins
   std::array<std::vector<world::Body>, kMostHalvings + 1> saved_;  // as they were when a part began
+  std::array<double, kMostHalvings + 1> lost_ = {};                // s, in the frame until then
 
   // Of each body: whether it is put back far in this frame, and was in the last one; for how long (s) it has
   // been carried, and slow.
