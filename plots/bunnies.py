@@ -4,6 +4,8 @@
 Needs poses.csv (the run's --poses), contacts.csv and the bodies' mesh. The renderer is a z-buffer in numpy, with no
 perspective, so that lengths compare."""
 
+import drawing_python  # noqa: F401  first: it finds a Python that can draw
+
 from pathlib import Path
 
 import matplotlib.patheffects as effects

@@ -4,6 +4,8 @@ Reads RUN_DIR/BOUND/certificate.csv and RUN_DIR/BOUND_sweep/sweep.csv for three 
 the four commands that write them.
 """
 
+import drawing_python  # noqa: F401  first: it finds a Python that can draw
+
 from pathlib import Path
 
 import matplotlib.pyplot as plt

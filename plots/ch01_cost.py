@@ -4,6 +4,8 @@ Reads the runs that the chapter's text lists: RUN_DIR/plank.BOUND and RUN_DIR/hu
 RUN_DIR/hulls.cold, RUN_DIR/hits.BOUND and RUN_DIR/misses.BOUND, and the files of plots/ch01_motions.py.
 """
 
+import drawing_python  # noqa: F401  first: it finds a Python that can draw
+
 import math
 import sys
 from pathlib import Path

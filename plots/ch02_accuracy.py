@@ -4,6 +4,8 @@ bodies meet or miss.
 Reads RUN_DIR/tolerance.csv and RUN_DIR/approach.csv of ch02_study.
 """
 
+import drawing_python  # noqa: F401  first: it finds a Python that can draw
+
 from pathlib import Path
 
 import matplotlib.pyplot as plt

@@ -3,6 +3,8 @@
 Reads RUN_DIR/discrete.csv of ch02_study for the counts; the times come from such a table that was measured before (--times).
 """
 
+import drawing_python  # noqa: F401  first: it finds a Python that can draw
+
 from pathlib import Path
 
 import matplotlib.pyplot as plt

@@ -3,6 +3,8 @@
 Reads RUN_DIR/looks.csv, which the target ch02_ex03_demo writes.
 """
 
+import drawing_python  # noqa: F401  first: it finds a Python that can draw
+
 from pathlib import Path
 
 import matplotlib.pyplot as plt

@@ -3,6 +3,8 @@
 Reads RUN_DIR/hulls.csv and RUN_DIR/visits.csv of ch02_study --part pictures.
 """
 
+import drawing_python  # noqa: F401  first: it finds a Python that can draw
+
 import sys
 from pathlib import Path
 

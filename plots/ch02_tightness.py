@@ -3,6 +3,8 @@
 Reads RUN_DIR/tightness.csv and RUN_DIR/leaves.csv of ch02_study.
 """
 
+import drawing_python  # noqa: F401  first: it finds a Python that can draw
+
 from pathlib import Path
 
 import matplotlib.pyplot as plt

@@ -3,6 +3,8 @@
 Reads RUN_DIR/accuracy.csv of ch03_study --part accuracy. Medians of the problems of one family with 96 rows.
 """
 
+import drawing_python  # noqa: F401  first: it finds a Python that can draw
+
 from pathlib import Path
 
 import matplotlib.pyplot as plt

@@ -3,6 +3,8 @@
 Reads RUN_DIR/budget.csv of ch03_study --part accuracy. Medians of the problems of one family and size.
 """
 
+import drawing_python  # noqa: F401  first: it finds a Python that can draw
+
 from pathlib import Path
 
 import matplotlib.pyplot as plt

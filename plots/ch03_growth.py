@@ -3,6 +3,8 @@
 Reads RUN_DIR/growth.csv and RUN_DIR/exponents.csv of ch03_study --part growth.
 """
 
+import drawing_python  # noqa: F401  first: it finds a Python that can draw
+
 from pathlib import Path
 
 import matplotlib.pyplot as plt

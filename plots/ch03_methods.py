@@ -1,5 +1,7 @@
 """What the pictures of ch03_study share: the methods' names, colours and marks, and how a residual of 0 is drawn."""
 
+import drawing_python  # noqa: F401  first: it finds a Python that can draw
+
 import numpy as np
 
 from style import BLUE, GREEN, ORANGE, RED

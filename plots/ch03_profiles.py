@@ -3,6 +3,8 @@
 Reads RUN_DIR/profiles.csv of ch03_study --part profiles (Dolan and More 2002).
 """
 
+import drawing_python  # noqa: F401  first: it finds a Python that can draw
+
 from pathlib import Path
 
 import matplotlib.pyplot as plt

@@ -4,6 +4,8 @@ blocks against their most exact run.
 Reads RUN_DIR/bounces.csv and RUN_DIR/trajectories.csv of ch04_study --part accuracy.
 """
 
+import drawing_python  # noqa: F401  first: it finds a Python that can draw
+
 from pathlib import Path
 
 import matplotlib.pyplot as plt

@@ -3,6 +3,8 @@
 Reads RUN_DIR/billiard.csv, which the target ch04_ex02_demo writes.
 """
 
+import drawing_python  # noqa: F401  first: it finds a Python that can draw
+
 from pathlib import Path
 
 import matplotlib.pyplot as plt

@@ -4,6 +4,8 @@
 Reads DIR/<scene>/motion.glb and steps.csv of every run in DIR. A picture is drawn back to front: triangles far away
 first (a painter's algorithm), without perspective; of fine meshes a coarser one, made by merging vertices."""
 
+import drawing_python  # noqa: F401  first: it finds a Python that can draw
+
 import json
 from pathlib import Path
 

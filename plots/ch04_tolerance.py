@@ -3,6 +3,8 @@
 Reads RUN_DIR/sweep.csv of a sweep over ccd.tolerance; the chapter's text has the command that writes it.
 """
 
+import drawing_python  # noqa: F401  first: it finds a Python that can draw
+
 from pathlib import Path
 
 import matplotlib.pyplot as plt

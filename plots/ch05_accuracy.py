@@ -3,6 +3,8 @@
 Reads RUN_DIR/forces.csv and RUN_DIR/heap.csv of ch05_study --part solvers.
 """
 
+import drawing_python  # noqa: F401  first: it finds a Python that can draw
+
 from pathlib import Path
 
 import matplotlib.pyplot as plt

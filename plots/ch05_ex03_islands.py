@@ -3,6 +3,8 @@
 Reads RUN_DIR/islands.csv, which the target ch05_ex03_demo writes.
 """
 
+import drawing_python  # noqa: F401  first: it finds a Python that can draw
+
 from pathlib import Path
 
 import matplotlib.pyplot as plt

@@ -3,6 +3,8 @@
 Reads RUN_DIR/column.csv and RUN_DIR/energy.csv, which the target ch05_ex05_demo writes.
 """
 
+import drawing_python  # noqa: F401  first: it finds a Python that can draw
+
 from pathlib import Path
 
 import matplotlib.pyplot as plt

@@ -3,6 +3,8 @@
 Reads RUN_DIR/envelope.csv and RUN_DIR/step.csv of ch05_study --part knobs.
 """
 
+import drawing_python  # noqa: F401  first: it finds a Python that can draw
+
 from pathlib import Path
 
 import matplotlib.pyplot as plt

@@ -4,6 +4,8 @@ Jean's time stepping.
 Reads RUN_DIR/histories.csv and RUN_DIR/ball.csv of ch05_study --part methods.
 """
 
+import drawing_python  # noqa: F401  first: it finds a Python that can draw
+
 from pathlib import Path
 
 import matplotlib.pyplot as plt

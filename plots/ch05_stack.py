@@ -4,6 +4,8 @@ lost, beside chapter 4's answer to the same scene.
 Reads RUN_DIR/steps.csv of chapter 5's run, and --plain DIR/steps.csv of the run without the envelope.
 """
 
+import drawing_python  # noqa: F401  first: it finds a Python that can draw
+
 from pathlib import Path
 
 import matplotlib.pyplot as plt

@@ -4,6 +4,8 @@
 A stepped run (chapter 4 on): contacts, impulses, velocities, gaps and time per frame. A single solve (chapter 3): its
 impulses and velocities. Queries (chapters 1 and 2): the gap and the features at each first contact."""
 
+import drawing_python  # noqa: F401  first: it finds a Python that can draw
+
 from collections import Counter
 from pathlib import Path
 

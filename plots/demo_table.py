@@ -3,6 +3,8 @@
 
 They are the summary's entries `paper: QUANTITY` and `ours: QUANTITY`."""
 
+import drawing_python  # noqa: F401  first: it finds a Python that can draw
+
 import argparse
 import sys
 from pathlib import Path

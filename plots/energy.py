@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """Draws a run's energy over time, and how well it keeps momentum: energy.py RUN_DIR"""
 
+import drawing_python  # noqa: F401  first: it finds a Python that can draw
+
 from pathlib import Path
 
 import numpy as np

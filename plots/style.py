@@ -1,5 +1,7 @@
 """What every plot shares: colours, reading a run's tables, saving the same bytes each time, one-line errors."""
 
+import drawing_python  # noqa: F401  first: it finds a Python that can draw
+
 import argparse
 import csv
 import json
@@ -7,11 +9,8 @@ import sys
 from pathlib import Path
 from typing import Callable
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
+import matplotlib.pyplot as plt
+import numpy as np
 
 # Okabe and Ito's palette: told apart with any kind of colour vision.
 BLUE, ORANGE, GREEN, RED, SKY, PURPLE, GREY = "#0072B2 #E69F00 #009E73 #D55E00 #56B4E9 #CC79A7 #767676".split()

@@ -6,6 +6,8 @@
 
 The marks are explained in plots/README.md. Ends with 1 if something is stale or wrong, a line for each."""
 
+import drawing_python  # noqa: F401  first: it finds a Python that can draw
+
 import argparse
 import os
 import shutil

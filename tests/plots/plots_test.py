@@ -2,6 +2,8 @@
 
 import contextlib
 import io
+import os
+import re
 import runpy
 import subprocess
 import sys
@@ -21,10 +23,11 @@ import bunnies  # noqa: E402
 from style import Table, plt  # noqa: E402
 
 
-def plot(script: str, *arguments: object) -> subprocess.CompletedProcess:
+def plot(script: str, *arguments: object, **environment: str) -> subprocess.CompletedProcess:
     """Runs a script as a user does."""
     command = [sys.executable, "-B", PLOTS / f"{script}.py", *arguments]
-    return subprocess.run([str(part) for part in command], capture_output=True, text=True, check=False)
+    return subprocess.run([str(part) for part in command], capture_output=True, text=True, check=False,
+                          env={**os.environ, **environment})
 
 
 def plot_here(script: str, *arguments: object) -> subprocess.CompletedProcess:
@@ -64,6 +67,36 @@ class PlotTest(unittest.TestCase):
         self.assertEqual(done.returncode, 2, done.stderr)
         self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
         self.assertIn(message, done.stderr)
+
+    def python_without(self, module: str, message: str) -> dict[str, str]:
+        """An environment in which Python's import of a module fails."""
+        folder = self.folder / f"without_{module}"
+        folder.mkdir()
+        (folder / f"{module}.py").write_text(f"raise ImportError({message!r})\n")
+        return {"PYTHONPATH": str(folder)}
+
+    def test_a_python_that_cannot_draw_gives_way(self):
+        if subprocess.run(["/usr/bin/python3", "-E", "-s", "-c", "import matplotlib, numpy"], capture_output=True, check=False).returncode:
+            self.skipTest("the distribution's Python has no matplotlib")
+        synthetic.bouncing_ball(self.run_dir)
+        for module in ("matplotlib", "numpy"):
+            done = plot("energy", self.run_dir, "--out", self.folder / f"{module}.svg", **self.python_without(module, "none"))
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            self.assertTrue((self.folder / f"{module}.svg").exists())
+
+    def test_no_python_that_can_draw_is_one_line(self):
+        done = plot("energy", self.run_dir, FIRST_CONTACT_PYTHON_ASKED="/opt/own/python3 (none)",
+                    **self.python_without("numpy", "made for another one\nand more of this"))
+        self.assertEqual((done.returncode, done.stdout, len(done.stderr.splitlines())), (2, "", 1), done.stderr)
+        for text in ("energy.py: no Python here can draw", "/opt/own/python3 (none)", "(made for another one)", "python3-matplotlib"):
+            self.assertIn(text, done.stderr)
+
+    def test_every_script_looks_for_a_python_first(self):
+        for script in sorted(PLOTS.glob("*.py")):
+            text = script.read_text(encoding="utf-8")
+            imports = re.findall(r"^(?:import|from) (\w+)", text, re.M)
+            if {"matplotlib", "numpy", "style"} & set(imports):
+                self.assertEqual(imports[0], "drawing_python", script.name)
 
     def test_bouncing_ball(self):
         synthetic.bouncing_ball(self.run_dir)
