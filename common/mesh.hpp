@@ -22,11 +22,11 @@ struct MeshReport {
   int triangles = 0;             // after degenerate and duplicate ones were removed
   int merged_vertices = 0;       // equal positions, or never used
   int degenerate_triangles = 0;  // zero area (the rule stands at prepare_mesh); removed
-  int duplicate_triangles =
-      0;                   // the same three corners as an earlier one; removed (in the other orientation: not
-                           // from a closed mesh, where it may be the other side of an inner wall)
-  int boundary_edges = 0;  // edges of one triangle
-  int holes = 0;           // closed loops (connected sets) of boundary edges
+  // The same three corners as an earlier one; removed (in the other orientation: not from a closed mesh,
+  // where it may be the other side of an inner wall).
+  int duplicate_triangles = 0;
+  int boundary_edges = 0;       // edges of one triangle
+  int holes = 0;                // closed loops (connected sets) of boundary edges
   int nonmanifold_edges = 0;    // edges of three or more triangles
   int flipped_edges = 0;        // edges whose two triangles disagree in orientation
   int flipped_triangles = 0;    // that face against most of those they are joined to over edges of two

@@ -32,9 +32,9 @@ struct Shape {
   bool solid = true;    // has an inside (false: a mesh that is only its surface)
   double reach = 0;     // m, the largest distance of the shape from its centre of mass, radius included
   MassProperties mass;  // center_of_mass is in the shape's own frame; all zero if the scene gives no mass
-  std::string
-      mass_source;  // "density", "mass", "mass and inertia", "none", and for a
-                    // surface without inside "density, of the convex hull" or "mass, of the convex hull"
+  // "density", "mass", "mass and inertia", "none"; for a surface without inside "density, of the convex hull"
+  // or "mass, of the convex hull".
+  std::string mass_source;
   double restitution = 0;  // the shape's own, or the scene's, or 0
   MeshReport report;       // meshes only
 
@@ -44,8 +44,7 @@ struct Shape {
 // Builds one shape. Its mass and centre of mass, in this order:
 //   mass and inertia   as given; the centre is center_of_mass, else the centroid of the solid
 //   mass, or density   the solid filled evenly; of a mesh without inside, its convex hull filled evenly
-//   neither            no mass, and the centre is the centroid, so that a query's body turns about its true
-//   centre
+//   neither            no mass; the centre is the centroid: a query's body turns about its true centre
 // The centroid of a mesh without inside is that of its convex hull, filled; of a flat one, the mean over its
 // area.
 //

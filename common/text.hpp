@@ -24,8 +24,7 @@ std::string nearest(std::string_view name, const std::vector<std::string>& candi
 std::string one_of(const std::vector<std::string>& words, std::string_view last_separator = " or ");
 
 // A name for a file or folder: letters, digits, '.', '_', '-', '=' and everything beyond ASCII stay, all else
-// becomes
-// '_'; never empty, never hidden, never longer than most file systems allow.
+// becomes '_'; never empty, never hidden, never longer than most file systems allow.
 std::string file_name_from(std::string_view text);
 
 // Pads with spaces up to `width` characters (UTF-8 code points).

@@ -53,8 +53,7 @@ int main(int argc, char** argv) {
       "Finds the first contact of two moving convex bodies (sphere, box, capsule, cylinder, cone, hull) by "
       "conservative advancement: never late, and within the tolerance. Witness features are read from the "
       "simplex. With `linear`: of vertices and triangles, or edges, whose corners fly straight (no picture "
-      "of "
-      "their motion is written).";
+      "of their motion is written).";
   chapter.example =
       "build/bin/ch01_convex_advancement chapters/ch01_convex_advancement/scenes/spinning_box.yaml "
       "--certificate";

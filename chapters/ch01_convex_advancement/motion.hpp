@@ -39,12 +39,12 @@ inline double decayed_square(double k, double t) {
 
 // A body that flies: its centre of mass with constant acceleration, its axes with constant spin or freely;
 // both may decay by drag.
-//   x(t) = position + velocity t + acceleration t^2/2,   R(t) = rotation(spin, t) R(0)  or
-//   free->rotation_at(t)
+//   x(t) = position + velocity t + acceleration t^2/2
+//   R(t) = rotation(spin, t) R(0), or free->rotation_at(t)
 //
 // Drag in closed form, with k = drag and s(t) = (1 - e^(-kt))/k: from dv/dt = acceleration - k v,
-//   v(t) = e^(-kt) velocity + s(t) acceleration,   x(t) = position + s(t) velocity + (t - s(t))/k
-//   acceleration,
+//   v(t) = e^(-kt) velocity + s(t) acceleration
+//   x(t) = position + s(t) velocity + (t - s(t))/k acceleration,
 // and a torque of -k times the angular momentum (k = spin_drag) lets the body turn as it would without, but
 // slower and slower: after t it is where it would have been after s(t), with e^(-kt) of the spin.
 struct Motion {

@@ -35,10 +35,10 @@ class MovingPair {
   // For a body that turns freely |w| and |n x w| stand for their largest values, and R for the reach about
   // the centre of mass.
   //
-  // A result <= 0 proves that the pair does not close along n until `end`. An acceleration changes n.(v_A -
-  // v_B) linearly, so its larger end counts; equal accelerations cancel. A rounding radius moves with the
-  // centre of its ball and adds nothing. Mirtich (1996); Zhang, Lee, Kim, "Interactive Continuous Collision
-  // Detection for Non-Convex Polyhedra" (2006), section 4.
+  // A result <= 0 proves that the pair does not close along n until `end`. An acceleration changes
+  // n.(v_A - v_B) linearly, so its larger end counts; equal accelerations cancel. A rounding radius moves
+  // with the centre of its ball and adds nothing. Mirtich (1996); Zhang, Lee, Kim, "Interactive Continuous
+  // Collision Detection for Non-Convex Polyhedra" (2006), section 4.
   double closing_speed_bound(const Vec3& n, double t, double end) const;
 
   // For how many seconds h from t on the gap along n certainly stays on or above the straight line from `gap`

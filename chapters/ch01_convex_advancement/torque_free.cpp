@@ -1,9 +1,8 @@
-// The letters below: I1 <= I2 <= I3 the moments, a_i = 1/I_i, L_i the angular momentum along principal axis
-// i.
+// The letters below: I1 <= I2 <= I3 the moments, a_i = 1/I_i, L_i the angular momentum along axis i.
 //
 // Where L lies decides which axis it circles: the first if 2E > L^2/I2, the third if 2E < L^2/I2. Call that
-// one c, the middle one m, the other one o, in a right-handed order, and let A = |a_c - a_m|, B = |a_m -
-// a_o|. With the constants
+// one c, the middle one m, the other one o, in a right-handed order, and let A = |a_c - a_m| and
+// B = |a_m - a_o|. With the constants
 //   P = (A+B) L_c^2 + B L_m^2,   Q = A L_m^2 + (A+B) L_o^2,   S = A L_c^2 - B L_o^2 > 0
 // (|2E - a_o L^2|, |2E - a_c L^2|, |2E - a_m L^2|, but summed without cancellation), Euler's equations give
 //   L_c = +-sqrt(P/(A+B)) dn u,   L_m = sqrt(Q/A) sn u,   L_o = sqrt(Q/(A+B)) cn u,   du/dt = +-sqrt(A P),

@@ -12,13 +12,13 @@ namespace {
 using ca::FeatureKind;
 using ca::FeaturePair;
 
-constexpr double kConeSlack =
-    1e-9;  // sine of the angle by which a normal may leave a cone and count as on its border
+// Sine of the angle by which a normal may leave a cone and count as on its border.
+constexpr double kConeSlack = 1e-9;
 constexpr double kSameNormal = 1e-6;  // sine of the angle between normals that say the same
-constexpr double kParallelEdges =
-    1e-7;  // sine of the angle below which edges have no cross product to speak of
-constexpr double kOnBorder =
-    1e-9;  // of the model's reach: a vertex this far beyond a face's border lies over it
+// Sine of the angle below which edges have no cross product to speak of.
+constexpr double kParallelEdges = 1e-7;
+// Of the model's reach: a vertex this far beyond a face's border lies over it.
+constexpr double kOnBorder = 1e-9;
 constexpr double kJoined = 1e-12;  // of the models' reach: nearer points have no direction between them
 
 // One model at the pose, in A's axes from A's centre of mass, and the features of one of its leaves that can

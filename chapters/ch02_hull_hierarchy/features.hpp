@@ -12,10 +12,11 @@ namespace fc::hulls {
 // of mass. Points are in the world, normals are unit and point from A to B, gaps are signed along the normal
 // (slightly negative where shapes that touch exactly overlap by rounding).
 //
-//   vertex-face    the vertex lies over the face; the normal is the face's, so it is exact however small the
-//   gap edge-edge      both nearest points lie inside the edges; the normal is their cross product; neither
-//   edge is flat vertex-edge, vertex-vertex   only where no face and no edge is nearer; the normal joins the
-//   points
+//   vertex-face                  the vertex lies over the face; the normal is the face's, so it is exact
+//                                however small the gap
+//   edge-edge                    both nearest points lie inside the edges; the normal is their cross product;
+//                                neither edge is flat
+//   vertex-edge, vertex-vertex   only where no face and no edge is nearer; the normal joins the points
 //
 // An edge or vertex takes part only if the normal lies in its cone: moving along a neighbouring face or edge
 // must not lead nearer to the other body, else that face or edge is the contact. Pairs that say the same

@@ -16,8 +16,8 @@ struct LeafPair {
 };
 
 struct ModelDistance {
-  double lower =
-      0;  // m, certified; negative: a lower bound of the signed distance of the deepest pair of leaves
+  // m, certified; negative: a lower bound of the signed distance of the deepest pair of leaves.
+  double lower = 0;
   double upper = 0;                             // m, of the nearest witness points; 0 if leaves touch
   LeafPair nearest;                             // not set (a = -1) if nothing lies within the cutoff
   std::int64_t node_pairs = 0, leaf_pairs = 0;  // that were looked at

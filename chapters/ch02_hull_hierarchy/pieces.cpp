@@ -11,8 +11,8 @@
 namespace fc::hulls {
 namespace {
 
-constexpr double kNeedleHeight =
-    1e-4;  // of the longest side; below it a plane's direction is too uncertain to extend
+// Of the longest side; below it a plane's direction is too uncertain to extend.
+constexpr double kNeedleHeight = 1e-4;
 constexpr double kFlatThickness = 1e-9;  // of the piece's size; thinner pieces are checked as polygons
 
 struct Plane {

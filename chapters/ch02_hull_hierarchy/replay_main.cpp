@@ -80,13 +80,11 @@ int main(int argc, char** argv) {
   ca::ReplayProgram program;
   program.chapter = 2;
   program.purpose =
-      "Checks the certificate of a run of chapter 2: that every row of certificate.csv is true of the leaves "
-      "that "
-      "certificate_leaves.csv names, and that the rows together prove every pair of triangles clear until "
-      "what "
-      "queries.csv says. It uses neither GJK nor the motion bounds, and computes in long double. Each row "
-      "that is "
-      "refused is a line on standard error. Exit code 0: all is proved; 3: something is not; 2: bad input.";
+      "Checks the certificate of a run of chapter 2: that every row of certificate.csv is true of the "
+      "leaves that certificate_leaves.csv names, and that the rows together prove every pair of triangles "
+      "clear until what queries.csv says. It uses neither GJK nor the motion bounds, and computes in long "
+      "double. Each row that is refused is a line on standard error. Exit code 0: all is proved; 3: "
+      "something is not; 2: bad input.";
   program.example =
       "Example:\n"
       "  build/bin/ch02_hull_hierarchy chapters/ch02_hull_hierarchy/scenes/two_bunnies.yaml --certificate\n"

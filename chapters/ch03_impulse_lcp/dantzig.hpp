@@ -27,10 +27,11 @@ struct DantzigOptions {
 //   b: n.
 // One row after the other is driven to where w_i allows it to stay by changing its z, while all rows done
 // before stay complementary. Status:
-//   solved       the result passed acceptable(); the residual is then at round-off level unless A is nearly
-//   singular; no_solution  a certificate was found and checked against A itself; limit        too many
-//   pivots, or the end result failed acceptable(); unsuited     A was found to be neither positive
-//   semidefinite nor a P-matrix.
+//   solved        the result passed acceptable(); the residual is then at round-off level, unless A is nearly
+//                 singular
+//   no_solution   a certificate was found and checked against A itself
+//   limit         too many pivots, or the end result failed acceptable()
+//   unsuited      A was found to be neither positive semidefinite nor a P-matrix
 // Where A is singular, w is unique but z is not: z is then one of the solutions, at most rank(A) of its
 // entries are not at a bound. The order of the rows and the guess may select another z. The cost is O(n^2)
 // for each pivot.

@@ -40,8 +40,8 @@ struct ImpactResult {
   double energy_identity = 0;      // J, 1/2 sum (1 - epsilon_i) j_i v_i- and kinematic_work: what it must be
   double kinematic_work = 0;       // J, done by bodies of infinite mass that move
   double fastest_approach = 0;     // m/s, >= 0: what is left after the last solve, below the stated rounding
-  bool restitution_lowered =
-      false;  // mixed restitutions had no solution: the smallest of the set was used for all
+  // Mixed restitutions had no solution: the smallest of the set was used for all.
+  bool restitution_lowered = false;
 };
 
 // Changes the velocities of a contact's two bodies by an impulse (N s) along its normal, at its point; of a

@@ -7,8 +7,8 @@
 namespace fc::lcp::detail {
 namespace {
 
-constexpr double kLoad =
-    0.125;  // m/s: what gravity adds to a speed in a step; z is this times the mass above
+// m/s: what gravity adds to a speed in a step; z is this times the mass above.
+constexpr double kLoad = 0.125;
 
 struct Scene {
   std::vector<RigidBody> bodies;  // the first is the floor, or the wall

@@ -27,8 +27,8 @@ Method method_named(std::string_view name);
 struct SolveOptions {
   int limit = 0;         // pivots, sweeps or steps; 0: the method's own, stated in its header
   double tolerance = 0;  // the residual at which an iterative method stops; 0: the method's own
-  const VecX* start =
-      nullptr;  // n, a guess of z (the last step's, say); methods that cannot use it ignore it
+  // n, a guess of z (the last step's, say); methods that cannot use it ignore it.
+  const VecX* start = nullptr;
 };
 
 // Solves the problem by the method. Guarantee: `solved` only if the result passed acceptable(); a method that

@@ -9,10 +9,9 @@ int main(int argc, char** argv) {
   lcp::StudyOptions study;
   StudyProgram program;
   program.purpose =
-      "Measures chapter 3's solvers on problems whose answers are known. Each part writes tables into --out; "
-      "columns that end in _ns are times of this machine, or follow from them, all others are the same in "
-      "every "
-      "run:";
+      "Measures chapter 3's solvers on problems whose answers are known. Each part writes tables into "
+      "--out; columns that end in _ns are times of this machine, or follow from them, all others are the "
+      "same in every run:";
   program.example = "build/bin/ch03_study --part growth --rows 128 --out out/ch03/study";
   program.parts = {
       {"accuracy", "residual against cost (accuracy.csv), and within 0.1, 1 and 10 ms (budget.csv)",

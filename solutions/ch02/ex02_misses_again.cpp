@@ -9,8 +9,7 @@ namespace fc::exercises {
 namespace {
 
 // 1. A pair is left out only because its own step is longer than the one we have. That it is farther away
-// than
-//    another one proves nothing: it may be faster.
+//    than another one proves nothing: it may be faster.
 // 2. Contact is a matter of distance. A step may be short because the bodies are fast.
 // 3. Of two nodes the larger is opened: opening the smaller one leaves what made the gap small as it was.
 // 4. Having used up the steps is no proof of a miss: the answer is "clear until t".

@@ -109,13 +109,11 @@ struct Verdict {
 
 // What is checked, for each answer:
 //   missed, late      no contact before toc, nor during the interval if `separated`: all of [0, toc] is
-//   proved
-//                     clear by the reference
+//                     proved clear by the reference
 //   false contact     at toc the true distance is within the tolerance
 //   the two gaps      the true distance lies between them, and gap_upper within the tolerance for a contact
 //   the start         overlaps (or holds the other) where it is said to, touches where it is said to, is
-//   clear
-//                     otherwise
+//                     clear otherwise
 //   the features      of a contact: on both surfaces, within the tolerance of each other, along a unit normal
 //                     from A to B
 //   repetition        the same query again, with a certificate: the same answer

@@ -28,14 +28,12 @@ const std::string shapes =
 TEST(Overlap, AtTheStartIsRefusedWithTheBodysLine) {
   EXPECT_EQ(refusal(shapes + "  - {shape: ball, position: [0.9, 0, 0]}\n"),
             "scene.yaml:7:5: bodies 0 and 1 overlap at the start (by about 0.1 m), more than the tolerance "
-            "of 1e-06 m; "
-            "move them apart");
+            "of 1e-06 m; move them apart");
   EXPECT_EQ(
       refusal(shapes +
               "  - {shape: ball, position: [5, 0, 0]}\n  - {shape: ball, position: [0, 0.999998, 0]}\n"),
       "scene.yaml:8:5: bodies 0 and 2 overlap at the start (by about 2e-06 m), more than the tolerance of "
-      "1e-06 m; "
-      "move them apart");
+      "1e-06 m; move them apart");
 }
 
 TEST(Overlap, UpToTheToleranceIsATouch) {
@@ -64,9 +62,8 @@ TEST(Overlap, OfANestedMeshIsRefused) {
       "  - {shape: shell}\n"
       "  - {shape: core}\n";
   EXPECT_EQ(refusal(text),
-            "scene.yaml:7:5: bodies 0 and 1 overlap at the start (one lies inside the other), more than the "
-            "tolerance of "
-            "1e-06 m; move them apart");
+            "scene.yaml:7:5: bodies 0 and 1 overlap at the start (one lies inside the other), more than "
+            "the tolerance of 1e-06 m; move them apart");
 }
 
 TEST(Overlap, OfStaticBodiesIsNobodysBusiness) {

@@ -183,8 +183,7 @@ TEST(SceneSet, IsCheckedAsTheFileIs) {
             "--set step.dt.x=1: 'x' would be inside the single value '0.01'; set the whole value instead");
   EXPECT_EQ(set("gravity=[0,0"),
             "--set gravity=[0,0: not valid YAML: end of sequence flow not found; check brackets, colons, "
-            "quotes and "
-            "indentation up to here");
+            "quotes and indentation up to here");
   EXPECT_EQ(set("name='x"), "--set name='x: a quote begins here and never ends; close it");
   EXPECT_EQ(set("ccd={tolerance: 1, tolerance: 2}"),
             "--set ccd={tolerance: 1, tolerance: 2}: the key 'tolerance' is given twice; keep one of them");

@@ -165,9 +165,8 @@ TEST(BuildShape, FlatSurface) {
   EXPECT_LT((build_shape(spec, 0).mass.center_of_mass - Vec3(1, 1, 1)).norm(), 1e-15);
   spec.density = 1;
   EXPECT_EQ(refusal(spec),
-            "scene.yaml:4:3: shape 'thing': the mesh is an open, flat surface, and no mass follows from it; "
-            "give mass and "
-            "inertia");
+            "scene.yaml:4:3: shape 'thing': the mesh is an open, flat surface, and no mass follows from "
+            "it; give mass and inertia");
   spec.density.reset();
   spec.mass = 1;
   spec.inertia = Vec3(1, 1, 2).asDiagonal();
@@ -234,9 +233,8 @@ TEST(BuildShapes, BodiesThatMoveNeedAMass) {
     FAIL() << "a body without mass was accepted";
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(),
-                 "scene.yaml:4:3: shape 'thing' belongs to a body that moves, but has no mass; add 'density' "
-                 "or 'mass', "
-                 "or make the body 'static: true'");
+                 "scene.yaml:4:3: shape 'thing' belongs to a body that moves, but has no mass; add "
+                 "'density' or 'mass', or make the body 'static: true'");
   }
 }
 
