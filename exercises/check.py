@@ -1,43 +1,26 @@
 #!/usr/bin/env python3
 """Says how far the exercises are: one row each, what the first failing test says, and the total.
 
-Each exercise is built on its own and its tests are run on the learner's file; nothing is stored. Ends with 0 if all that were
-asked for are done, 1 if not, 2 for a name that is none."""
+Each exercise is built on its own and its tests are run on the learner's file; where nothing has changed since, the last
+result is said again (last_result.py). Ends with 0 if all that were asked for are done, 1 if not, 2 for a name that is none."""
 
 import argparse
 import json
+import os
 import re
 import signal
 import subprocess
 import sys
 import tempfile
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[1]
+import last_result
+from building import ROOT, Exercise, build, from_root, known_exercises, select
+
 LIMIT = 20  # seconds for the tests of one exercise: they take a fraction of one
 ERROR = re.compile(r"(\S+\.[ch]pp:\d+:\d+): (?:fatal )?error: (.*)")
-
-
-@dataclass
-class Exercise:
-    chapter: str  # ch01
-    name: str  # ex01_door
-
-    @property
-    def number(self) -> str:
-        return self.name.split("_")[0]
-
-    @property
-    def target(self) -> str:
-        return f"{self.chapter}_{self.number}_exercise"
-
-    @property
-    def file(self) -> str:
-        return f"exercises/{self.chapter}/{self.name}.cpp"
-
-    def __str__(self) -> str:
-        return f"{self.chapter}/{self.number}"
+NOT_STARTED = "not started"
 
 
 @dataclass
@@ -45,22 +28,7 @@ class State:
     text: str
     done: bool = False
     detail: str = ""
-
-
-def known_exercises(root: Path) -> list[Exercise]:
-    return [Exercise(file.parent.name, file.stem) for file in sorted((root / "exercises").glob("ch*/ex*.hpp"))]
-
-
-def select(exercises: list[Exercise], wanted: str | None) -> list[Exercise]:
-    """Those that ch01 or ch01/ex01 (or ch01/ex01_door) names; all without a name."""
-    if wanted is None:
-        return exercises
-    chapter, _, number = wanted.strip("/").partition("/")
-    return [e for e in exercises if e.chapter == chapter and number in ("", e.number, e.name)]
-
-
-def build(folder: Path, target: str) -> subprocess.CompletedProcess:
-    return subprocess.run(["cmake", "--build", folder, "--target", target], capture_output=True, text=True, check=False)
+    ran: bool = False  # the tests went to their end: on the same files they say the same again
 
 
 def first_error(log: str, file: str) -> tuple[str, bool]:
@@ -78,36 +46,29 @@ def first_error(log: str, file: str) -> tuple[str, bool]:
 
 
 def run_tests(program: Path, limit: float) -> State:
+    environment = {name: value for name, value in os.environ.items() if not name.startswith("GTEST_")}
     with tempfile.TemporaryDirectory() as folder:
         report = Path(folder) / "report.json"
         try:
             done = subprocess.run([program, f"--gtest_output=json:{report}", "--gtest_color=no"], capture_output=True,
-                                  text=True, errors="replace", timeout=limit, check=False)
+                                  text=True, errors="replace", timeout=limit, check=False, env=environment)
         except subprocess.TimeoutExpired as stopped:
             output = stopped.stdout or b""
             running = test_that_ran(output if isinstance(output, str) else output.decode(errors="replace"))
             return State(f"crashed: stopped after {limit:g} s; an endless loop?", detail=f"in {running}")
         if not report.exists():
-            if done.returncode < 0:
-                why = signal.Signals(-done.returncode).name
-                why = {"SIGSEGV": "memory that is not yours (SIGSEGV)", "SIGABRT": "abort or a failed assert (SIGABRT)"}.get(why, why)
-            else:
-                why = f"exit code {done.returncode}"
             last = done.stderr.strip().splitlines()
-            return State(f"crashed: {why}", detail=f"in {test_that_ran(done.stdout)}" + (f"\n{last[-1]}" if last else ""))
+            return State(f"crashed: {why_it_ended(done.returncode)}",
+                         detail=f"in {test_that_ran(done.stdout)}" + (f"\n{last[-1]}" if last else ""))
         suites = json.loads(report.read_text(encoding="utf-8"))["testsuites"]
-    tests = [test for suite in suites for test in suite["testsuite"]]
-    failed = [test for test in tests if test.get("failures")]
-    if not tests:
-        return State("crashed: its tests did not run")
-    if not failed:
-        return State("done", done=True)
-    messages = [failure["failure"] for test in failed for failure in test["failures"]]
-    if len(failed) == len(tests) and all("TODO: exercise" in message for message in messages):
-        return State("not started")
-    first = next((test for test in failed if "TODO: exercise" not in test["failures"][0]["failure"]), failed[0])
-    text = first["failures"][0]["failure"].strip()
-    return State(f"{len(tests) - len(failed)}/{len(tests)} tests pass", detail=f"{first['classname']}.{first['name']}\n{text}")
+    return verdict([test for suite in suites for test in suite["testsuite"]])
+
+
+def why_it_ended(code: int) -> str:
+    if code >= 0:
+        return f"exit code {code}"
+    name = signal.Signals(-code).name
+    return {"SIGSEGV": "memory that is not yours (SIGSEGV)", "SIGABRT": "abort or a failed assert (SIGABRT)"}.get(name, name)
 
 
 def test_that_ran(output: str) -> str:
@@ -115,45 +76,93 @@ def test_that_ran(output: str) -> str:
     return names[-1] if names else "its first test"
 
 
+def verdict(tests: list[dict]) -> State:
+    """From GoogleTest's report on each test."""
+    failed = [test for test in tests if test.get("failures")]
+    if not tests:
+        return State("crashed: its tests did not run")
+    if not failed:
+        return State("done", done=True, ran=True)
+    messages = [failure["failure"] for test in failed for failure in test["failures"]]
+    if len(failed) == len(tests) and all("TODO: exercise" in message for message in messages):
+        return State(NOT_STARTED, ran=True)
+    first = next((test for test in failed if "TODO: exercise" not in test["failures"][0]["failure"]), failed[0])
+    detail = f"{first['classname']}.{first['name']}\n{first['failures'][0]['failure'].strip()}"
+    others = [test["name"] for test in failed if test is not first]
+    if others:
+        detail += f"\nfailing, too: {', '.join(others)}"
+    return State(f"{len(tests) - len(failed)}/{len(tests)} tests pass", detail=detail, ran=True)
+
+
 def check(exercise: Exercise, folder: Path, root: Path, limit: float) -> State:
-    built = build(folder, exercise.target)
-    if built.returncode != 0:
-        message, own = first_error(built.stdout + built.stderr, exercise.file)
+    kept = last_result.recall(exercise, folder, root)
+    if kept:
+        return State(**kept)
+    seen = last_result.sources(exercise, root)
+    built, log = build(folder, exercise.target("exercise"))
+    if not built:
+        message, own = first_error(log, exercise.file)
+        message = from_root(message, root, folder)
         return State("does not compile", detail=message if own else f"{message}\n(not in your file: {exercise.file})")
-    state = run_tests(folder / "bin" / exercise.target, limit)
-    if state.done:
-        state.detail = f"compare with solutions/{exercise.chapter}/{exercise.name}.cpp"
+    state = run_tests(folder / "bin" / exercise.target("exercise"), limit)
+    state.detail = from_root(state.detail, root, folder)
+    if state.ran:
+        last_result.keep(exercise, folder, root, seen, asdict(state))
     return state
 
 
-def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter,
-                                     epilog="example: ./run check ch01/ex01")
-    parser.add_argument("which", nargs="?", metavar="chNN[/exMM]", help="a chapter's exercises, or one; default: all")
-    parser.add_argument("--build", type=Path, default=ROOT / "build/verify", metavar="DIR", help="a configured build folder with the tests (default: build/verify)")
+def advice(exercise: Exercise, state: State, following: Exercise | None) -> str:
+    """What to do next, for an exercise that is not begun, or done."""
+    if state.text == NOT_STARTED:
+        return exercise.task
+    if not state.done:
+        return ""
+    lines = [f"compare with solutions/{exercise.chapter}/{exercise.name}.cpp", f"see what it does: ./run see {exercise}"]
+    return "\n".join(lines + ([f"next, {following}: {following.task}"] if following else []))
+
+
+def show(exercise: Exercise, state: State, advised: str) -> None:
+    print(f"{str(exercise):<10} {exercise.name:<24} {state.text}", flush=True)
+    for line in [*state.detail.splitlines(), *advised.splitlines()]:
+        print(f"           {line}", flush=True)
+
+
+def options_of(program: str, description: str, example: str) -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog=program, description=description, epilog=f"example: {example}",
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--build", type=Path, default=ROOT / "build/verify", metavar="DIR",
+                        help="a configured build folder with the tests (default: build/verify)")
     parser.add_argument("--root", type=Path, default=ROOT, help=argparse.SUPPRESS)
     parser.add_argument("--limit", type=float, default=LIMIT, metavar="SECONDS", help=f"for the tests of one exercise (default: {LIMIT})")
-    options = parser.parse_args()
+    return parser
+
+
+def chosen_of(options: argparse.Namespace, program: str) -> list[Exercise]:
+    """The exercises that the options name; ends the program with 2 if there are none, or no build folder."""
     exercises = known_exercises(options.root)
     chosen = select(exercises, options.which)
+    wrong = ""
     if not chosen:
-        print(f"check: no exercise '{options.which}'; there are: {', '.join(map(str, exercises)) or 'none'}", file=sys.stderr)
-        return 2
-    if not (options.build / "CMakeCache.txt").exists():
-        print(f"check: {options.build} is not configured; use ./run check, or cmake --preset verify", file=sys.stderr)
-        return 2
-    done = 0
+        wrong = f"no exercise '{options.which}'; there are: {', '.join(map(str, exercises)) or 'none'}"
+    elif not (options.build / "CMakeCache.txt").exists():
+        wrong = f"{options.build} is not configured; use ./run {program}, or cmake --preset verify"
+    if wrong:
+        print(f"{program}: {wrong}", file=sys.stderr)
+        sys.exit(2)
+    return chosen
+
+
+def main() -> int:
+    parser = options_of("check", __doc__, "./run check ch01/ex01")
+    parser.add_argument("which", nargs="?", metavar="chNN[/exMM]", help="a chapter's exercises, or one; default: all")
+    options = parser.parse_args()
+    chosen, exercises, done = chosen_of(options, "check"), known_exercises(options.root), 0
     for exercise in chosen:
-        if sys.stderr.isatty():
-            print(f"\r{exercise}: building …", end="", file=sys.stderr, flush=True)
         state = check(exercise, options.build, options.root, options.limit)
-        if sys.stderr.isatty():
-            print("\r\033[K", end="", file=sys.stderr, flush=True)
         done += state.done
-        print(f"{str(exercise):<10} {exercise.name:<24} {state.text}", flush=True)
-        for line in state.detail.splitlines():
-            print(f"           {line}")
-    print(f"{done} of {len(chosen)} exercises done")
+        after = exercises[exercises.index(exercise) + 1:]
+        show(exercise, state, advice(exercise, state, after[0] if after and len(chosen) == 1 else None))
+    print(f"{done} of {len(chosen)} exercise{'s' if len(chosen) > 1 else ''} done")
     return 0 if done == len(chosen) else 1
 
 

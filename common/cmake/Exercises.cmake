@@ -1,4 +1,6 @@
-# fc_add_exercise(ch01 ex01_door LINKS ...): one exercise. Its parts, of which all but the first are ours:
+# fc_add_exercise(ch01 ex01_door LINKS ... DEMO ...): one exercise. LINKS is what its tests and its code need, and no more: it
+# is what a learner's first check has to wait for. DEMO is what the demo needs beyond that. Its parts, of which all but the
+# first are ours:
 #
 #   exercises/ch01/ex01_door.{hpp,cpp}         the contract, and the learner's code
 #   exercises/ch01/ex01_door.demo.cpp          a program that shows what the learner's code does
@@ -10,14 +12,17 @@
 # a learner's file that does not compile breaks nothing else; and, for CTest, the proof that the tests are worth
 # something: every test fails on the stub, every mutant fails the test that its first line names, the solution passes.
 #
-# The stub's proof is about the file as we wrote it. Once a learner has begun to change it, it is left out.
+# The stub's proof is about the file as we wrote it, so it has a copy of its own, which is made anew as long as nobody has
+# begun to write in the file. Where there is none (it was begun before the first configuration), the proof is left out. The
+# learner's file is no input of the configuration: that would cost seconds whenever it changes.
 function(fc_add_exercise chapter name)
-  cmake_parse_arguments(ARG "" "" "LINKS" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "LINKS;DEMO" ${ARGN})
   string(REGEX MATCH "^ex[0-9]+" number ${name})
   set(id ${chapter}_${number})
   set(tests ${CMAKE_SOURCE_DIR}/tests/exercises/${chapter})
   set(learner ${CMAKE_SOURCE_DIR}/exercises/${chapter}/${name}.cpp)
-  set_source_files_properties(${learner} PROPERTIES COMPILE_OPTIONS "-Wno-error;-Wno-unused-parameter")  # it may be unfinished
+  set(stub ${CMAKE_CURRENT_BINARY_DIR}/stubs/${chapter}/${name}.cpp)
+  set_source_files_properties(${learner} ${stub} PROPERTIES COMPILE_OPTIONS "-Wno-error;-Wno-unused-parameter")  # unfinished
 
   add_library(${id}_tests OBJECT EXCLUDE_FROM_ALL ${tests}/${name}_test.cpp)
   fc_exercise_settings(${id}_tests ${chapter} ${ARG_LINKS})
@@ -26,7 +31,7 @@ function(fc_add_exercise chapter name)
   fc_exercise_settings(${id}_exercise ${chapter} ${id}_tests ${ARG_LINKS})
 
   add_executable(${id}_demo EXCLUDE_FROM_ALL ${CMAKE_SOURCE_DIR}/exercises/${chapter}/${name}.demo.cpp ${learner})
-  fc_exercise_settings(${id}_demo ${chapter} ${ARG_LINKS})
+  fc_exercise_settings(${id}_demo ${chapter} ${ARG_LINKS} ${ARG_DEMO})
 
   add_executable(${id}_solution ${CMAKE_SOURCE_DIR}/solutions/${chapter}/${name}.cpp)
   fc_exercise_settings(${id}_solution ${chapter} ${id}_tests ${ARG_LINKS})
@@ -35,13 +40,16 @@ function(fc_add_exercise chapter name)
     return()
   endif()
 
-  fc_exercise_begun(${learner} begun)
-  if(begun)
-    message(STATUS "${name} has been begun: the proof that its tests fail on the stub is left out")
-  else()
-    add_executable(${id}_stub ${learner})
+  set(copy ${CMAKE_COMMAND} -D FROM=${learner} -D TO=${stub} -P ${CMAKE_SOURCE_DIR}/common/cmake/copy_stub.cmake)
+  execute_process(COMMAND ${copy})
+  if(EXISTS ${stub})
+    add_custom_command(OUTPUT ${stub}.looked_at DEPENDS ${learner} BYPRODUCTS ${stub} VERBATIM
+                       COMMAND ${copy} COMMAND ${CMAKE_COMMAND} -E touch ${stub}.looked_at)
+    add_executable(${id}_stub ${stub} ${stub}.looked_at)
     fc_exercise_settings(${id}_stub ${chapter} ${id}_tests ${ARG_LINKS})
     gtest_discover_tests(${id}_stub TEST_PREFIX "stub_must_fail.${chapter}." PROPERTIES WILL_FAIL TRUE TIMEOUT 60)
+  else()
+    message(STATUS "${name} has been begun: the proof that its tests fail on the stub is left out")
   endif()
 
   file(GLOB mutants CONFIGURE_DEPENDS ${tests}/mutants/${name}.*.cpp)
@@ -64,22 +72,5 @@ function(fc_exercise_settings target chapter)
   target_link_libraries(${target} PRIVATE fc_settings ${ARGN})
   if(NOT target MATCHES "_demo$")
     target_link_libraries(${target} PRIVATE GTest::gtest_main)
-  endif()
-endfunction()
-
-# Whether the file differs from the committed one, or, committed or not, has no FC_TODO any more. Looked at again when it changes.
-function(fc_exercise_begun file result)
-  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
-  file(STRINGS ${file} todo REGEX "FC_TODO\\(\"")
-  set(changed "")
-  find_package(Git QUIET)
-  if(GIT_FOUND)  # outside a work tree it prints nothing
-    execute_process(COMMAND ${GIT_EXECUTABLE} status --porcelain -- ${file} WORKING_DIRECTORY ${CMAKE_SOURCE_DIR}
-                    OUTPUT_VARIABLE changed ERROR_QUIET)
-  endif()
-  if(todo AND changed STREQUAL "")
-    set(${result} FALSE PARENT_SCOPE)
-  else()
-    set(${result} TRUE PARENT_SCOPE)
   endif()
 endfunction()

@@ -1,5 +1,7 @@
-"""Tests exercises/check.py on a small project of its own, with real compilations: each state of an exercise, and the names."""
+"""Tests exercises/check.py and see.py on a small project of its own, with real compilations: each state of an exercise, the
+names, when the last result holds and when not, and what is to be seen."""
 
+import contextlib
 import os
 import shutil
 import subprocess
@@ -38,6 +40,27 @@ TEST(Double, OfThree) {{ EXPECT_EQ(twice(3), 6) << "metres"; }}
 SOLUTION = '#include "{name}.hpp"\n\ndouble twice(double x) {{ return 2 * x; }}\n'
 MUTANT = '// Caught by: Double.OfThree\n#include "{name}.hpp"\n\ndouble twice(double x) {{ return x * x; }}\n'
 NAMES = ("ex01_double", "ex02_half")
+TASK = "write exercises/ch07/ex01_double.cpp; the task is 7.1 in exercises/ch07/README.md"
+DEMO = """
+#include <cstdio>
+#include <fstream>
+#include "common/todo.hpp"
+#include "{name}.hpp"
+int main(int, char** argv) {{
+  try {{
+    std::ofstream(std::string(argv[1]) + ".txt") << twice(21);
+  }} catch (const fc::TodoError& todo) {{
+    std::fprintf(stderr, "%s\\n", todo.what());
+    return 2;
+  }}
+  std::printf("twice 21 is %g\\ndraw it: by hand\\n", twice(21));
+}}
+"""
+PLOT = """
+import shutil, sys
+shutil.copy(sys.argv[1] + ".txt", sys.argv[1] + ".png")
+print(sys.argv[1] + ".png")
+"""
 
 
 class CheckTest(unittest.TestCase):
@@ -45,16 +68,16 @@ class CheckTest(unittest.TestCase):
     def setUpClass(cls):
         cls.temporary = tempfile.TemporaryDirectory()
         cls.root = root = Path(cls.temporary.name)
-        for folder in ("common/cmake", "exercises/ch07", "solutions/ch07", "tests/exercises/ch07/mutants"):
+        for folder in ("common/cmake", "exercises/ch07", "solutions/ch07", "tests/exercises/ch07/mutants", "plots", "out"):
             (root / folder).mkdir(parents=True)
-        for file in ("common/todo.hpp", "common/cmake/Exercises.cmake"):
+        for file in ("common/todo.hpp", "common/cmake/Exercises.cmake", "common/cmake/copy_stub.cmake"):
             shutil.copy(ROOT / file, root / file)
         (root / "CMakeLists.txt").write_text(PROJECT)
         (root / "chapter.cpp").write_text("int main() {}\n")
         for name in NAMES:
             for file, text in {f"exercises/ch07/{name}.hpp": HEADER, f"exercises/ch07/{name}.cpp": STUB,
-                               f"exercises/ch07/{name}.demo.cpp": "int main() {{}}\n", f"tests/exercises/ch07/{name}_test.cpp": TESTS,
-                               f"solutions/ch07/{name}.cpp": SOLUTION, f"tests/exercises/ch07/mutants/{name}.square.cpp": MUTANT}.items():
+                               f"exercises/ch07/{name}.demo.cpp": DEMO, f"plots/ch07_{name}.py": PLOT,
+                               f"tests/exercises/ch07/{name}_test.cpp": TESTS, f"solutions/ch07/{name}.cpp": SOLUTION, f"tests/exercises/ch07/mutants/{name}.square.cpp": MUTANT}.items():
                 (root / file).write_text(text.format(name=name))
         cls.build = root / "build"
         configured = subprocess.run(["cmake", "-S", root, "-B", cls.build], capture_output=True, text=True, check=False)
@@ -74,17 +97,24 @@ class CheckTest(unittest.TestCase):
     def solve(self, body: str) -> None:
         self.write(f'#include "ex01_double.hpp"\n#include <cstdlib>\n\ndouble twice(double x) {{ {body} }}\n')
 
-    def check(self, *arguments: str) -> tuple[int, str]:
-        """The exit code, and what was printed; nothing goes to standard error."""
-        done = subprocess.run([sys.executable, "-B", ROOT / "exercises/check.py", "--root", self.root, "--build", self.build,
-                               *arguments], capture_output=True, text=True, check=False)
-        self.assertEqual(done.stderr, "")
+    def run_tool(self, tool: str, *arguments: str, build: bool = True, **environment: str) -> subprocess.CompletedProcess:
+        """Runs check.py or see.py as a user does; all that goes to standard error is what is being built."""
+        folder = ["--build", self.build] if build else []
+        done = subprocess.run([sys.executable, "-B", ROOT / f"exercises/{tool}.py", "--root", self.root, *folder, *arguments],
+                              capture_output=True, text=True, check=False, env={**os.environ, **environment})
+        if build:
+            self.assertEqual([line for line in done.stderr.splitlines() if not line.startswith("building ")], [])
+        return done
+
+    def check(self, *arguments: str, **environment: str) -> tuple[int, str]:
+        """The exit code, and what was printed."""
+        done = self.run_tool("check", *arguments, **environment)
         return done.returncode, done.stdout
 
     def test_not_started(self):
         code, out = self.check("ch07/ex01")
         self.assertEqual(code, 1)
-        self.assertEqual(out, "ch07/ex01  ex01_double              not started\n0 of 1 exercises done\n")
+        self.assertEqual(out, f"ch07/ex01  ex01_double              not started\n           {TASK}\n0 of 1 exercise done\n")
 
     def test_some_tests_pass(self):
         self.solve("return x * x;")
@@ -93,7 +123,11 @@ class CheckTest(unittest.TestCase):
         self.assertIn("1/3 tests pass", out)
         self.assertIn("Double.OfOne", out)
         self.assertIn("metres: twice the way is longer", out)
-        self.assertIn("0 of 1 exercises done", out)
+        self.assertIn("0 of 1 exercise done", out)
+        self.assertRegex(out, r"(?m)^ +tests/exercises/ch07/ex01_double_test\.cpp:\d+$")  # where an editor finds it
+        self.assertIn("failing, too: OfThree\n", out)
+        self.solve("return 7 * x;")
+        self.assertIn("failing, too: OfTwo, OfThree\n", self.check("ch07/ex01")[1])
 
     def test_done(self):
         self.solve("return 2 * x;")
@@ -101,6 +135,8 @@ class CheckTest(unittest.TestCase):
         self.assertEqual(code, 0)
         self.assertIn("ex01_double              done\n", out)
         self.assertIn("compare with solutions/ch07/ex01_double.cpp", out)
+        self.assertIn("see what it does: ./run see ch07/ex01\n", out)
+        self.assertIn("next, ch07/ex02: write exercises/ch07/ex02_half.cpp; the task is 7.2 in exercises/ch07/README.md\n", out)
         code, out = self.check()  # the other one is not
         self.assertEqual(code, 1)
         self.assertIn("1 of 2 exercises done", out)
@@ -118,6 +154,8 @@ class CheckTest(unittest.TestCase):
         self.write("double unrelated;\n")
         self.assertRegex(self.check("ch07/ex01")[1], r"does not compile\n +exercises/ch07/ex01_double.cpp: twice.* is declared")
         self.write("this is no C++\n")
+        stub = self.build / "stubs/ch07/ex01_double.cpp"
+        self.assertEqual(stub.read_text(), STUB.format(name="ex01_double"))  # the proof has a copy of its own
         built = subprocess.run(["cmake", "--build", self.build], capture_output=True, text=True, check=False)
         self.assertEqual(built.returncode, 0, built.stdout + built.stderr)  # solutions, mutants and the chapter
         proof = subprocess.run(["ctest", "--test-dir", self.build], capture_output=True, text=True, check=False)
@@ -146,11 +184,83 @@ class CheckTest(unittest.TestCase):
 
     def test_names(self):
         self.assertIn("0 of 2 exercises done", self.check("ch07")[1])
-        self.assertIn("0 of 1 exercises done", self.check("ch07/ex02_half")[1])
+        self.assertIn("0 of 1 exercise done", self.check("ch07/ex02_half")[1])
         for wrong in ("ch08", "ch07/ex03", "ex01"):
-            done = subprocess.run([sys.executable, "-B", ROOT / "exercises/check.py", "--root", self.root, wrong],
-                                  capture_output=True, text=True, check=False)
-            self.assertEqual((done.returncode, done.stderr), (2, f"check: no exercise '{wrong}'; there are: ch07/ex01, ch07/ex02\n"))
+            for tool in ("check", "see"):
+                done = self.run_tool(tool, wrong, build=False)
+                self.assertEqual((done.returncode, done.stderr),
+                                 (2, f"{tool}: no exercise '{wrong}'; there are: ch07/ex01, ch07/ex02\n"))
+        for several in ([], ["ch07"]):
+            done = self.run_tool("see", *several, build=False)
+            self.assertEqual(done.returncode, 2)
+
+    def test_the_last_result_holds_until_something_changes(self):
+        self.solve("return 2 * x;")
+        first = self.check("ch07/ex01")
+        with self.no_cmake() as environment:  # whoever builds now fails
+            self.assertEqual(self.check("ch07/ex01", **environment), first)
+            self.solve("return 3 * x;")
+            self.assertNotEqual(self.check("ch07/ex01", **environment), first)
+        self.assertIn("0/3 tests pass", self.check("ch07/ex01")[1])
+        self.solve("return 2 * x;")
+        self.assertEqual(self.check("ch07/ex01"), first)
+        header, test = self.root / "exercises/ch07/ex01_double.hpp", self.root / "tests/exercises/ch07/ex01_double_test.cpp"
+        program, cache = self.build / "bin/ch07_ex01_exercise", self.build / "CMakeCache.txt"
+        beside = self.root / "exercises/ch07/mine.inc"  # a file that only the compiler knows of
+        self.write('#include "ex01_double.hpp"\n#include "mine.inc"\ndouble twice(double x) { return factor * x; }\n')
+        beside.write_text("constexpr double factor = 2;\n")
+        self.addCleanup(beside.unlink)
+        for file, text in ((header, None), (test, None), (program, None), (cache, None), (self.root / "common/todo.hpp", None),
+                           (beside, "constexpr double factor = 3;\n")):
+            with self.subTest(file.name):
+                self.assertEqual(self.check("ch07/ex01"), first)
+                with self.no_cmake() as environment:
+                    self.assertEqual(self.check("ch07/ex01", **environment), first)
+                    file.write_bytes(file.read_bytes()) if text is None else file.write_text(text)
+                    self.assertNotEqual(self.check("ch07/ex01", **environment), first)
+        self.assertIn("0/3 tests pass", self.check("ch07/ex01")[1])
+
+    def test_a_crash_is_tried_again(self):
+        """A time limit that was too short on a busy machine must not stick."""
+        self.solve("volatile double sum = 0; for (int k = 0; k < 300'000'000; ++k) sum = sum + 1; return 2 * x;")
+        self.assertIn("crashed: stopped after 0.01 s", self.check("ch07/ex01", "--limit", "0.01")[1])
+        self.assertIn("1 of 1 exercise done", self.check("ch07/ex01", "--limit", "100")[1])
+
+    def test_what_filters_tests_does_not_filter_these(self):
+        self.solve("return x * x;")
+        self.assertIn("1/3 tests pass", self.check("ch07/ex01", GTEST_FILTER="Double.OfTwo")[1])
+
+    @contextlib.contextmanager
+    def no_cmake(self):
+        """An environment whose cmake builds nothing."""
+        with tempfile.TemporaryDirectory() as folder:
+            cmake = Path(folder) / "cmake"
+            cmake.write_text("#!/bin/sh\necho no build was wanted\nexit 1\n")
+            cmake.chmod(0o755)
+            yield {"PATH": f"{folder}:{os.environ['PATH']}"}
+
+    def test_it_says_what_it_builds(self):
+        self.solve("return 2 * x;")
+        self.assertIn("building your file …\n", self.run_tool("check", "ch07/ex01").stderr)
+        self.assertEqual(self.run_tool("check", "ch07/ex01").stderr, "")
+
+    def test_see(self):
+        done = self.run_tool("see", "ch07/ex01")
+        self.assertEqual((done.returncode, done.stdout), (1, f"ch07/ex01 is not started: {TASK}\n"))
+        self.solve("return y;")
+        done = self.run_tool("see", "ch07/ex01")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("does not compile\n           exercises/ch07/ex01_double.cpp:4:", done.stdout)
+        self.solve("if (x > 20) abort(); return 2 * x;")
+        done = self.run_tool("see", "ch07/ex01")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("the demo ended with abort", done.stdout)
+        self.solve("return 3 * x;")  # a wrong answer is to be seen, too
+        done = self.run_tool("see", "ch07/ex01")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertIn("0/3 tests pass", done.stdout)
+        self.assertTrue(done.stdout.endswith("twice 21 is 63\ndrawn: out/ch07_ex01.png\n"), done.stdout)
+        self.assertEqual((self.root / "out/ch07_ex01.png").read_text(), "63")
 
     def test_proofs_see_a_bad_test(self):
         """A test that the stub passes, a mutant that passes, and a solution that fails make CTest fail."""
