@@ -58,9 +58,12 @@ def read_rows(file: Path) -> tuple[list[str], list[list[str]]]:
 
 
 def formatted(cell: str, form: str | None) -> str:
-    """A cell as the text shows it: `%.3f` and the like; `%,d` for 17,913."""
+    """A cell as the text shows it: `%.3f` and the like; `%,d` for 17,913; `%.1f/1e3` for another unit."""
     if form is None:
         return cell
+    form, _, divisor = form.partition("/")
+    if divisor:
+        return form % (float(cell) / float(divisor))
     if form == "%,d":
         return f"{int(cell):,}"
     return form % (int(cell) if form.endswith("d") else float(cell))
@@ -89,7 +92,7 @@ def value(what: str, root: Path) -> str:
 
 
 def table(what: str, root: Path) -> str:
-    """FILE COLUMN[ as %FORMAT], COLUMN, ...: a Markdown table of all rows."""
+    """FILE COLUMN[ as %FORMAT[ titled TITLE]], COLUMN, ...: a Markdown table of all rows."""
     file, _, columns = what.partition(" ")
     names, rows = read_rows(root / file)
     chosen = []
@@ -97,7 +100,8 @@ def table(what: str, root: Path) -> str:
         name, _, form = column.partition(" as ")
         if name not in names:
             raise ValueError(f"{file} has no column '{name}'; it has: {', '.join(names)}")
-        chosen.append((name, names.index(name), form or None))
+        form, _, title = form.partition(" titled ")
+        chosen.append((title or name, names.index(name), form or None))
     lines = ["| " + " | ".join(name for name, _, _ in chosen) + " |", "|" + "---|" * len(chosen)]
     lines += ["| " + " | ".join(formatted(row[i], form) for _, i, form in chosen) + " |" for row in rows]
     return "\n" + "\n".join(lines) + "\n"

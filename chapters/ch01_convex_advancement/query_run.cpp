@@ -157,7 +157,9 @@ void run_queries(const Scene& scene, std::size_t queries, const Ask& ask, const 
     raised += r.tolerance > options.tolerance ? 1 : 0;
     if (queries == 1) {
       summary.add("status", std::string(name_of(r.status)));
-      summary.add(r.status == Status::unresolved ? "clear until" : "time of contact", toc, "of the interval");
+      const bool met = r.status != Status::separated && r.status != Status::unresolved;
+      summary.add(met ? "time of contact" : "clear until", toc, "of the interval");
+      summary.add(met ? "first contact at" : "clear for", toc * options.interval, "s");
       summary.add("gap, certified lower bound", r.gap_lower, "m");
       summary.add("gap, witness points", r.gap_upper, "m");
       summary.add("features", static_cast<std::int64_t>(r.features.size()));

@@ -62,6 +62,7 @@ struct Search {
     ca::GjkResult g = ca::distance(hull_a, hull_b, pose, {options.slack / 4, 0.05, 128});
     ++reach.node_pairs;
     if (leaves && g.lower <= options.target) g = leaf_distance(hull_a, hull_b, pose, options.tolerance);
+    // ANCHOR: look
     const double room = g.lower - options.target;
     // Pieces that overlap by rounding have no upper bound to speak of: then the lower one tells.
     const bool at_target =
@@ -95,6 +96,7 @@ struct Search {
     else
       wait(next, g.lower, pair.a, pair.b);
     return false;
+    // ANCHOR_END: look
   }
 };
 

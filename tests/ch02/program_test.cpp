@@ -118,6 +118,15 @@ TEST_P(QueryProgram, TheIntervalAndTheBodiesOwnMotions) {
   EXPECT_EQ(table("c/queries.csv").cells[0][2], "1");
 }
 
+TEST_P(QueryProgram, TheSummaryHasTheTimeAsAFractionAndInSeconds) {
+  ASSERT_EQ(ask("scene.yaml --quiet --out a --sweep interval=4,0.25").exit_code, 0);
+  const Table sweep = table("a/sweep.csv");
+  EXPECT_NEAR(sweep.at(0, "time of contact"), 0.125, 1e-6);
+  EXPECT_NEAR(sweep.at(0, "first contact at"), 0.5, 1e-6);
+  EXPECT_EQ(sweep.at(1, "clear until"), 1);  // separated: a time of contact would be a lie
+  EXPECT_EQ(sweep.at(1, "clear for"), 0.25);
+}
+
 TEST_P(QueryProgram, ALimitIsAnAnswer) {
   const Outcome o = ask("many.yaml --out a --set ccd.max_iterations=1");
   EXPECT_EQ(o.exit_code, 0) << o.err;

@@ -137,6 +137,13 @@ class TextsTest(unittest.TestCase):
         self.replace("time [s]\n```", "time [h]\n```")
         self.assert_told("has 'tolerance,steps,time [h]'")
 
+    def test_a_table_in_another_unit(self):
+        self.replace("time as %.2f -->", "time as %.1f/1e-3 titled time [ms] -->")
+        self.replace("| tolerance | time |", "| tolerance | time [ms] |")
+        self.replace("| 1e-3 | 0.33 |", "| 1e-3 | 333.3 |")
+        self.replace("| 1e-6 | 0.67 |", "| 1e-6 | 666.7 |")
+        self.assertEqual(texts.check(self.root, self.bin), [])
+
     def test_a_picture_that_changed(self):
         (self.chapter / "curve.svg").write_text("tolerance,steps,time [s]\n1e-3,6,0.5\n1e-6,12,0.66666666667\n")
         self.assert_told("curve.svg:2", "look at it")
