@@ -11,7 +11,7 @@ from pathlib import Path
 import matplotlib.patheffects as effects
 import numpy as np
 
-from style import BLUE, ORANGE, PlotError, Table, plot_main, plt
+from style import BLUE, ORANGE, PlotError, Table, no_sweep, plot_main, plt
 
 MESH = Path("/usr/share/glmark2/models/bunny.obj")  # Debian's package glmark2-data
 WIDTH, HEIGHT, SAMPLES = 560, 290, 3  # of a panel in pixels; samples per pixel along each axis
@@ -169,6 +169,7 @@ def instants(contacts: Table, poses: Poses) -> list[tuple[float, str, np.ndarray
 
 
 def draw(run: Path, mesh: Path, scale: float) -> plt.Figure:
+    no_sweep(run)
     vertices, triangles = load_obj(mesh)
     vertices *= scale
     normals = vertex_normals(vertices, triangles)

@@ -106,10 +106,39 @@ def read_summary(run: Path) -> dict:
         raise PlotError(f"{file}: {error}") from None
 
 
-def tolerance_of(run: Path) -> float | None:
-    """The collision tolerance of the run, as its summary states it."""
-    value = read_summary(run).get("entries", {}).get("tolerance", {}).get("value")
-    return value if isinstance(value, float) else None
+def entry_of(run: Path, name: str) -> float | None:
+    """A number of the run's summary; None if it says none."""
+    value = read_summary(run).get("entries", {}).get(name, {}).get("value")
+    return float(value) if isinstance(value, (int, float)) else None
+
+
+def rests_of(contacts: Table) -> np.ndarray:
+    """Of each contact whether it lasts (chapter 5 on); tables without the column `kind` tell of impacts alone."""
+    kinds = contacts.text("kind") if "kind" in contacts.names else []
+    return np.array([kind == "rest" for kind in kinds] if kinds else [False] * len(contacts), bool)
+
+
+def fixed_bodies(run: Path) -> bool:
+    """Whether any body of the run is fixed, as its motion.glb says."""
+    file = run / "motion.glb"
+    if not file.exists():
+        return False
+    try:
+        with file.open("rb") as stream:  # a header of 12 bytes; the first chunk, after its size and kind, is JSON
+            size = int.from_bytes(stream.read(20)[12:16], "little")
+            nodes = json.loads(stream.read(size))["nodes"]
+    except (ValueError, KeyError) as error:
+        raise PlotError(f"{file}: not a recorded motion: {error}") from None
+    return any(node.get("extras", {}).get("static") for node in nodes)
+
+
+def no_sweep(run: Path) -> None:
+    """Refuses the folder of a sweep: there is a run in each of its folders."""
+    if not (run / "sweep.csv").exists() or (run / "steps.csv").exists():
+        return
+    runs = sorted(file.parent.name for file in run.glob("*/summary.json"))
+    named = ", ".join(runs[:12]) + (f", … ({len(runs)} runs)" if len(runs) > 12 else "")
+    raise PlotError(f"{run}: a sweep; give one of its runs: {named or 'none is there'}; all of them: plots/sweep.py {run}")
 
 
 def log_limits(axes: plt.Axes, *series: np.ndarray) -> None:

@@ -20,6 +20,7 @@ PLOTS = Path(__file__).resolve().parents[2] / "plots"
 sys.path.insert(0, str(PLOTS))
 sys.dont_write_bytecode = True
 import bunnies  # noqa: E402
+import crowds  # noqa: E402
 from style import Table, plt  # noqa: E402
 
 
@@ -107,6 +108,116 @@ class PlotTest(unittest.TestCase):
         for text in ("impulse [N s]", "gap [m]", "tolerance, 1e-06 m", "1/30 s", "before", "after"):
             self.assertIn(text, svg)
 
+    def panels(self, script: str) -> dict[str, plt.Axes]:
+        """The panels of a drawing, by their titles."""
+        with mock.patch.object(plt, "close"):
+            figure = runpy.run_path(str(PLOTS / f"{script}.py"))["draw"](self.run_dir)
+        self.addCleanup(plt.close, figure)
+        figure.canvas.draw()
+        return {axes.get_title("left"): axes for axes in figure.axes}
+
+    def curve(self, axes: plt.Axes, label: str) -> np.ndarray:
+        return next(line.get_ydata() for line in axes.lines if line.get_label() == label)
+
+    def test_a_heap_is_drawn_in_bands(self):
+        for kinds in (True, False):
+            synthetic.heap(self.run_dir, kinds=kinds)
+            svg = self.assert_draws("contacts")
+            self.assertLess(len(svg), 300_000)
+            for text in ("5–95 %", "median", "largest", "envelope h, 0.0005 m", "h/2, 0.00025 m", "tolerance, 1e-06 m"):
+                self.assertIn(text, svg)
+            self.assertEqual("at rest" in svg, kinds)
+        impulses = next(axes for title, axes in self.panels("contacts").items() if title.startswith("Impulse"))
+        self.assertIn("(300 less than a millionth of the largest are left out)", impulses.get_title("left"))
+        self.assertGreater(impulses.get_ylim()[0], 1e-4, "round-off stretches the axis")
+
+    def test_bands_are_quantiles(self):
+        bins = crowds.Bins.between(np.array([0.0, 1, 2, 3]))
+        x, values = np.repeat([0.5, 2.0], 101), np.concatenate([np.arange(101), 7 + np.arange(101)])
+        for share, expected in ((0, (0, np.nan, 7)), (0.05, (5, np.nan, 12)), (0.5, (50, np.nan, 57)), (1, (100, np.nan, 107))):
+            np.testing.assert_array_equal(crowds.quantiles(bins, x, values, (share,))[0], expected)
+        many = crowds.Bins.between(np.arange(10_001.0))
+        self.assertLessEqual(len(many.ends), crowds.MOST_BINS)
+        self.assertEqual(many.reduced(np.arange(10_001.0), np.maximum)[-1], 10_000)
+        x, y = crowds.thinned(np.arange(100_000.0), np.where(np.arange(100_000) == 54_321, 9.0, 0.0))
+        self.assertLess(len(x), 3 * crowds.MOST_POINTS)
+        self.assertEqual((y.max(), x[-1]), (9.0, 99_999.0), "a peak is lost")
+
+    def test_energy_of_what_rests(self):
+        synthetic.heap(self.run_dir)
+        svg = self.assert_draws("energy")
+        for text in ("impact (3 instants)", "added by corrections", "momentum is not drawn: gravity and fixed bodies change it"):
+            self.assertIn(text, svg)
+        panels = self.panels("energy")
+        energy, small = panels["Energy; zero is the lowest potential, 1000 J"], panels["The small ones among them"]
+        np.testing.assert_allclose(self.curve(energy, "potential")[[0, -1]], (0, 5), atol=1e-9)
+        self.assertLess(energy.get_ylim()[1], 6)
+        np.testing.assert_allclose(self.curve(energy, "added by corrections")[-1], 5)
+        self.assertLess(small.get_ylim()[1], 0.02, "kinetic energy is flat")
+        self.assertEqual(len(panels), 2)
+
+    def test_many_impacts_are_counted_not_lined_up(self):
+        synthetic.heap(self.run_dir, kinds=False)
+        self.assertIn("impacts (303 instants): how many", self.assert_draws("energy"))
+        energy = next(iter(self.panels("energy").values()))
+        self.assertLess(len(energy.lines), 10)
+
+    def test_momentum_with_fixed_bodies(self):
+        synthetic.passing_by(self.run_dir)
+        self.assertIn("relative change since the start", self.assert_draws("energy"))
+        synthetic.motion(self.run_dir / "motion.glb", fixed=True)
+        svg = self.assert_draws("energy")
+        self.assertNotIn("relative change since the start", svg)
+        self.assertIn("momentum is not drawn: fixed bodies change it", svg)
+        (self.run_dir / "motion.glb").write_bytes(b"glTF")
+        self.assert_fails("not a recorded motion", "energy", self.run_dir)
+
+    def test_a_sweep_is_no_run(self):
+        for name in ("dt=1", "dt=2"):
+            synthetic.passing_by(self.run_dir / name)
+            (self.run_dir / name / "summary.json").write_text("{}")
+        (self.run_dir / "sweep.csv").write_text("dt\n1\n2\n")
+        for script in ("energy", "contacts", "bunnies"):
+            self.assert_fails("a sweep; give one of its runs: dt=1, dt=2", script, self.run_dir)
+
+    def sweep_of(self, folder: str, rows: str, header: str = "ccd.tolerance [m],error [m],step_ns,kind,exit_code") -> Path:
+        (self.folder / folder).mkdir()
+        (self.folder / folder / "sweep.csv").write_text(f"{header}\n{rows}", encoding="utf-8")
+        return self.folder / folder
+
+    def test_parts_of_a_sweep_are_one(self):
+        one = self.sweep_of("one", "1e-2,0.1,5e6,a,0\n1e-6,1e-5,7e6,b,0\n")
+        two = self.sweep_of("two", "1e-4,0.001,6e6,c,3\n1e-2,0.1,9e6,a,0\n")
+        done = plot_here("sweep", two, one, "--y", "error", "--y", "step_ns")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        svg = (two / "sweep.svg").read_text(encoding="utf-8")
+        for text in ("ccd.tolerance [m]", "error [m]", "step [ms]", "failed (exit code)"):
+            self.assertIn(text, svg)
+        self.assertTrue((two / "sweep.png").exists())
+        error, time = runpy.run_path(str(PLOTS / "sweep.py"))["draw"]([two, one], None, ["error", "step_ns"]).axes
+        np.testing.assert_array_equal(error.lines[0].get_xydata(), [(1e-6, 1e-5), (1e-4, 0.001), (1e-2, 0.1)])
+        np.testing.assert_array_equal(time.lines[0].get_ydata(), (7, 6, 9))
+        self.assertEqual((error.get_xscale(), error.get_yscale(), time.get_yscale()), ("log", "log", "linear"))
+        plt.close("all")
+        self.assertEqual(plot_here("sweep", one, two, "--x", "error", "--y", "step_ns").returncode, 0)
+        self.assertEqual(plot_here("sweep", self.sweep_of("words", "[1,2],1,1,a,0\n[3,4],2,1,a,0\n".replace("[1,2]", '"[1,2]"').replace("[3,4]", '"[3,4]"')),
+                                   "--y", "error").returncode, 0)
+
+    def test_what_is_no_sweep(self):
+        one = self.sweep_of("one", "1e-2,0.1,5e6,a,0\n")
+        other = self.sweep_of("other", "1e-2,0.2,5e6,a,0\n")
+        third = self.sweep_of("third", "1,0.2\n", "step.dt [s],error [m]")
+        twice = self.sweep_of("twice", "1,2\n", "envelope [m],envelope [m]")
+        self.assert_fails("ccd.tolerance = 1e-2 is there twice, with two values of 'error': 0.1 and 0.2", "sweep", one, other)
+        self.assert_fails("sweeps 'step.dt', not 'ccd.tolerance'", "sweep", one, third)
+        self.assert_fails("two columns are called 'envelope'", "sweep", twice)
+        self.assert_fails("no column 'eror'; the sweep has: ccd.tolerance, error", "sweep", one, "--y", "eror")
+        self.assert_fails("has no numbers: a", "sweep", one, "--y", "kind")
+        self.assert_fails("no usual column changes", "sweep", one)
+        synthetic.bouncing_ball(self.run_dir)
+        self.assert_fails("a run, not a sweep", "sweep", self.run_dir)
+        self.assert_fails("no such file", "sweep", self.folder)
+
     def test_run_without_contacts_says_so(self):
         synthetic.passing_by(self.run_dir)
         self.assertNotIn("potential", self.assert_draws("energy"))
@@ -180,7 +291,7 @@ class PlotTest(unittest.TestCase):
         self.assert_fails("steps.csv: no such file", "energy", self.run_dir)
         self.assert_fails("none of steps.csv", "contacts", self.run_dir)
         steps = self.run_dir / "steps.csv"
-        for content, message in {"": "empty", "t [s]\n": "no rows", "t [s],energy [J]\n0,1\n": "no column 'kinetic'",
+        for content, message in {"": "empty", "t [s]\n": "no rows", "t [s],energy [J]\n0,1\n": "no column 'potential'",
                                  "t [s],kinetic [J]\n0\n": "steps.csv:2: 1 cells",
                                  "t [s]\nsoon\n": "column 't'"}.items():
             steps.write_text(content)

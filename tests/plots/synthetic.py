@@ -1,6 +1,8 @@
 """Runs in closed form, as the executables would write them, so that the plots can be tested without an engine."""
 
+import json
 import math
+import struct
 from pathlib import Path
 
 GRAVITY, RESTITUTION, RADIUS, MASS = 9.81, 0.6, 0.5, 2.0
@@ -52,6 +54,31 @@ def passing_by(run: Path) -> None:
     rows = [(k, k / 60, 4, 0, 4, 4, 0, 0, 0, 0, 0, 0, 0, "inf", 0, 0, 0, 0, 1000, 0, 2000) for k in range(61)]
     write(run / "steps.csv", STEPS, rows)
     write(run / "contacts.csv", CONTACTS, [])
+
+
+def heap(run: Path, frames: int = 300, rests: int = 60, kinds: bool = True, fixed: bool = True) -> None:
+    """Bodies that lie 100 m up: `rests` contacts in each frame, one of them with an impulse that is round-off, and in
+    every 100th frame an impact. They rise by a joule in a second, and move with 0.01 J."""
+    run.mkdir(parents=True, exist_ok=True)
+    steps, contacts = [], []
+    for frame in range(frames + 1):
+        t, impact = frame / 60, int(frame > 0 and frame % 100 == 0)
+        steps.append((frame, t, 0.01, 1000 + t, 1000.01 + t, 0, 0, 0, 0, 0, 0, rests, impact if kinds else rests + impact,
+                      2e-4, 0, rests, 0, 0, 500, 200, 1000, 1 / 60 if frame else 0))
+        if frame < frames:
+            contacts += [(t, 0, k, 0, 0, k, 0, 0, 1, 2e-4, -0.16, 0, 1e-15 if k == 1 else 0.01 * k, "rest") for k in range(1, rests + 1)]
+        if impact:
+            contacts.append((t - 0.001, 0, 1, 0, 0, 0, 0, 0, 1, 1e-7, -2, 1, 7, "impact"))
+    write(run / "steps.csv", STEPS + ",correction_energy [J]", steps)
+    write(run / "contacts.csv", CONTACTS + ",kind" if kinds else CONTACTS, contacts if kinds else [row[:-1] for row in contacts])
+    (run / "summary.json").write_text('{"entries": {"tolerance": {"value": 1e-6}, "envelope": {"value": 0.0005}}}')
+    motion(run / "motion.glb", fixed)
+
+
+def motion(file: Path, fixed: bool) -> None:
+    """As much of a recorded motion as plots read: the nodes."""
+    text = json.dumps({"nodes": [{"name": "world"}, {"name": "body_0", "extras": {"static": fixed}}]}).encode()
+    file.write_bytes(struct.pack("<4sIII4s", b"glTF", 2, 20 + len(text), len(text), b"JSON") + text)
 
 
 def one_solve(run: Path) -> None:
