@@ -45,6 +45,8 @@ def draw(run: Path, times: str | None = None) -> plt.Figure:
             curve(panels[1][2], measured, measured["continuous_ns"] / measured["discrete_ns"], family, GREEN, "ratio")
         panels[0][2].set(title="Cost: time, on this machine", ylabel="time per frame, mean [µs]", yscale="log")
         panels[1][2].set(title="Continuous / discrete, on this machine", ylabel="ratio of times per frame", yscale="log")
+        panels[1][2].set_yticks([1, 2, 5, 10, 20, 50], ["1", "2", "5", "10", "20", "50"])
+        panels[1][2].minorticks_off()
     for axes in panels.flat:
         axes.set_xscale("log", base=2)
         axes.set_xticks([1, 4, 16, 64, 256], ["1", "4", "16", "64", "256"])

@@ -55,11 +55,13 @@ def draw_levels(run: Path) -> plt.Figure:
 
 
 def draw_visits(run: Path) -> plt.Figure:
-    """Over the time that is left until the contact, on a logarithmic axis: zero is at its right end."""
+    """Over the time that is left until the contact that each search finds, on a logarithmic axis: zero is at its right end."""
     table = Table(run / "visits.csv")
     searches, fates = np.array(table.text("search")), np.array(table.text("fate"))
-    contact = table["time"][(searches == "ours") & (fates == "reached")][0]
-    left = np.maximum(contact - table["time"], 1e-9)
+    left = np.zeros(len(table))
+    for search in SEARCHES:
+        rows = searches == search
+        left[rows] = np.maximum(table["time"][rows & (fates == "reached")][0] - table["time"][rows], 1e-9)
     figure, panels = plt.subplots(1, len(SEARCHES), figsize=(11.5, 3.7), sharex=True, sharey=True)
     for axes, (search, title) in zip(panels, SEARCHES.items()):
         for fate, (colour, label) in FATES.items():

@@ -10,7 +10,7 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import numpy as np
 
-from ch03_methods import FAMILIES, METHODS, RESIDUAL_TICKS, at_least
+from ch03_methods import FAMILIES, METHODS, RESIDUAL_TICKS, at_least, break_before_zero
 from style import GREY, Table, plot_main
 
 ROWS = 96
@@ -28,6 +28,7 @@ def curves(axes: plt.Axes, table: Table, family: str, cost: np.ndarray) -> None:
     axes.axhline(2.2e-16, color=GREY, lw=0.8, ls=":")
     axes.set(xscale="log", yscale="log", ylim=(3e-18, 2))
     axes.set_yticks(*RESIDUAL_TICKS)
+    break_before_zero("y", axes)
 
 
 def draw(run: Path) -> plt.Figure:
@@ -40,7 +41,7 @@ def draw(run: Path) -> plt.Figure:
         panels[1][column].set(xlabel="operations / $2n^2$")
     for row in panels:
         row[0].set(ylabel="residual")
-    panels[0][0].text(0.02, 4e-16, "round-off", transform=panels[0][0].get_yaxis_transform(), fontsize=7.5, color=GREY)
+    panels[0][-1].text(1.01, 2.2e-16, "round-\noff", transform=panels[0][-1].get_yaxis_transform(), va="center", fontsize=7.5, color=GREY)
     handles, labels = panels[0][0].get_legend_handles_labels()
     figure.get_layout_engine().set(rect=(0, 0.055, 1, 0.945))
     figure.legend(handles, labels, loc="lower center", ncols=len(labels))

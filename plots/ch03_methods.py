@@ -24,5 +24,16 @@ LEAST = 1e-17  # below round-off: here stands what is 0
 RESIDUAL_TICKS = [LEAST, 1e-12, 1e-8, 1e-4, 1], ["0", "$10^{-12}$", "$10^{-8}$", "$10^{-4}$", "1"]
 
 
+def break_before_zero(axis: str, axes) -> None:
+    """Two strokes on a residual's axis: between 0 and round-off it leaves out all the rest."""
+    at = 5e-17
+    stroke = {"marker": [(-1, -0.6), (1, 0.6)], "ms": 9, "mec": "#555555", "mew": 1, "clip_on": False, "ls": ""}
+    for shift in (0.8, 1.25):
+        if axis == "y":
+            axes.plot(0, at * shift, transform=axes.get_yaxis_transform(), **stroke)
+        else:
+            axes.plot(at * shift, 0, transform=axes.get_xaxis_transform(), **{**stroke, "marker": [(-0.6, -1), (0.6, 1)]})
+
+
 def at_least(residual: np.ndarray) -> np.ndarray:
     return np.maximum(residual, LEAST)

@@ -25,25 +25,27 @@ def bounces(work: plt.Axes, time: plt.Axes, table: Table) -> None:
     work.set_ylabel("error of the height after 2.5 s [m]")
     work.set_title("A bouncing ball: work")
     time.set_title("… and time")
-    work.legend(loc="lower left")
+    work.legend(loc="lower right")
 
 
 def trajectories(axes: plt.Axes, table: Table) -> None:
-    knobs = [("tolerance [m]", "tolerance", BLUE, "o"), ("frames", "frames in 0.8 s", GREEN, "D"),
-             ("motion", "constant spin", RED, "X"), ("solver", "solver", PURPLE, "^")]
+    knobs = [("tolerance [m]", "tolerance: its value in m beside it", BLUE, "o"), ("frames", "frames in 0.8 s: their number", GREEN, "D"),
+             ("motion", "constant spin, not free rotation", RED, "X"), ("solver", "four solvers, one upon the other", PURPLE, "^")]
+    shown = {"1e-2": "1e-2", "1e-4": "1e-4 (45 impacts)", "1e-6": "1e-6", "1e-8": "1e-8", "1e-10": "1e-10", "1": "1", "4": "4", "768": "768"}
     for knob, label, colour, mark in knobs:
         rows = [i for i, (k, v) in enumerate(zip(table.text("knob"), table.text("value"))) if k == knob and v != "torque-free"]
         axes.loglog(table["advances"][rows], np.maximum(table["error"][rows], 1e-16), mark, color=colour, ms=5, label=label)
         for i in rows:
-            if knob in ("tolerance [m]", "frames") and table.text("value")[i] in ("1e-2", "1e-6", "1e-10", "1", "768"):
-                axes.annotate(table.text("value")[i], (table["advances"][i], table["error"][i]), textcoords="offset points",
+            if knob in ("tolerance [m]", "frames") and table.text("value")[i] in shown:
+                axes.annotate(shown[table.text("value")[i]], (table["advances"][i], table["error"][i]), textcoords="offset points",
                               xytext=(6, 3), fontsize=7.5, color=GREY)
     axes.set_xlabel("proved steps of all searches")
     axes.set_ylabel("error of the worst place after 41 impacts [m]")
     axes.set_title("Eight tumbling blocks")
     axes.set_xticks([500, 1000, 2000, 4000], ["500", "1,000", "2,000", "4,000"])
     axes.minorticks_off()
-    axes.legend(loc="upper right")
+    axes.set_ylim(1e-7, 1e5)  # room for the legend
+    axes.legend(loc="upper right", fontsize=7.5)
 
 
 def draw(run: Path) -> plt.Figure:
