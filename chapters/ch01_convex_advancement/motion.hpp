@@ -11,31 +11,14 @@
 namespace fc::ca {
 
 // The rotation by the angle (rad) about a unit axis (Rodrigues' formula).
-inline Mat3 rotation_about(const Vec3& axis, double angle) {
-  const double s = std::sin(angle);
-  const double half = std::sin(0.5 * angle);
-  const double c = 2 * half * half;  // 1 - cos(angle), without the cancellation
-  const double x = axis.x(), y = axis.y(), z = axis.z();
-  Mat3 r;
-  r << 1 - c * (y * y + z * z), c * x * y - s * z, c * x * z + s * y,  //
-      c * x * y + s * z, 1 - c * (x * x + z * z), c * y * z - s * x,   //
-      c * x * z - s * y, c * y * z + s * x, 1 - c * (x * x + y * y);
-  return r;
-}
+Mat3 rotation_about(const Vec3& axis, double angle);
 
 // What is left of a rate k (1/s) of decay: the integral of e^(-k s) over s in [0, t], in s; and the integral
 // of that, in s^2.
 inline double decayed_time(double k, double t) {
   return k == 0 ? t : -std::expm1(-k * t) / k;
 }
-inline double decayed_square(double k, double t) {
-  // (x - 1 + e^-x)/x^2 t^2 with x = k t, as a series where the difference would lose digits.
-  const double x = k * t;
-  if (x > 0.5) return (x + std::expm1(-x)) / (k * k);
-  double term = 0.5, sum = 0.5;
-  for (int n = 3; n <= 16; ++n) sum += term *= -x / n;
-  return t * t * sum;
-}
+double decayed_square(double k, double t);
 
 // A body that flies: its centre of mass with constant acceleration, its axes with constant spin or freely;
 // both may decay by drag.
@@ -60,45 +43,16 @@ struct Motion {
   double drag = 0, spin_drag = 0;          // 1/s
 
   Motion() = default;
-  explicit Motion(const RigidBody& body, const Vec3& acceleration_world = Vec3::Zero())
-      : position(body.position),
-        rotation(body.orientation.toRotationMatrix()),
-        velocity(body.velocity),
-        acceleration(acceleration_world),
-        spin(body.spin),
-        spin_rate(body.spin.norm()) {
-    if (spin_rate > 0) spin_axis = spin / spin_rate;
-  }
+  explicit Motion(const RigidBody& body, const Vec3& acceleration_world = Vec3::Zero());
   // From here on no torque acts: the spin follows Euler's equations. Of a body that this does not change (a
   // ball, or one that spins about a principal axis) nothing is changed.
-  void turn_freely(const PrincipalInertia& inertia) {
-    const TorqueFree turning(inertia, rotation, spin);
-    free = turning.constant_spin() ? nullptr : std::make_shared<TorqueFree>(turning);
-    free_start = 0;
-    free_rate = 1;
-  }
+  void turn_freely(const PrincipalInertia& inertia);
 
-  Mat3 rotation_at(double t) const {
-    if (free) return free->rotation_at(free_time(t));
-    return spin_rate == 0
-               ? rotation
-               : Mat3(rotation_about(spin_axis, spin_rate * decayed_time(spin_drag, t)) * rotation);
-  }
-  Vec3 position_at(double t) const {
-    if (drag > 0) return position + decayed_time(drag, t) * velocity + decayed_square(drag, t) * acceleration;
-    return position + t * (velocity + 0.5 * t * acceleration);
-  }
-  Vec3 velocity_at(double t) const {
-    if (drag > 0) return std::exp(-drag * t) * velocity + decayed_time(drag, t) * acceleration;
-    return velocity + t * acceleration;
-  }
-  Vec3 acceleration_at(double t) const {
-    return drag > 0 ? Vec3(std::exp(-drag * t) * (acceleration - drag * velocity)) : acceleration;
-  }
-  Vec3 spin_at(double t) const {
-    const Vec3 undamped = free ? Vec3(free_rate * free->spin_at(free_time(t))) : spin;
-    return spin_drag > 0 ? Vec3(std::exp(-spin_drag * t) * undamped) : undamped;
-  }
+  Mat3 rotation_at(double t) const;
+  Vec3 position_at(double t) const;
+  Vec3 velocity_at(double t) const;
+  Vec3 acceleration_at(double t) const;
+  Vec3 spin_at(double t) const;
   double free_time(double t) const { return free_start + free_rate * decayed_time(spin_drag, t); }
   Pose pose_at(double t) const { return {rotation_at(t), position_at(t)}; }
 
@@ -106,9 +60,7 @@ struct Motion {
   // |dw/dt| in rad/s^2, and how far the spin's direction wanders: |n x w(t2)| <= |n x w(t1)| + wander, t1 <
   // t2.
   double spin_bound() const { return free ? free_rate * free->spin_bound() : spin_rate; }
-  double turning_bound(const Vec3& n) const {
-    return free ? free_rate * free->turning_bound(n) : n.cross(spin).norm();
-  }
+  double turning_bound(const Vec3& n) const;
   double spin_change_bound() const {
     const double free_change = free ? free_rate * free_rate * free->spin_change_bound() : 0;
     return free_change + spin_drag * spin_bound();
@@ -128,18 +80,8 @@ struct Motion {
 // both have in common leaves no rounding. The acceleration keeps its direction and does not grow: what it is
 // along n at t, or zero, bounds it along n from then on (with drag, if it is the same for both, or one of
 // them has a constant velocity).
-inline Vec3 relative_acceleration(const Motion& a, const Motion& b, double t) {
-  if (a.drag == 0 && b.drag == 0) return a.acceleration - b.acceleration;
-  return a.acceleration_at(t) - b.acceleration_at(t);
-}
-inline Vec3 relative_velocity(const Motion& a, const Motion& b, double t) {
-  if (a.drag == 0 && b.drag == 0) return (a.velocity - b.velocity) + t * (a.acceleration - b.acceleration);
-  if (a.drag == b.drag) {
-    const double decay = std::exp(-a.drag * t), grown = decayed_time(a.drag, t);
-    return decay * (a.velocity - b.velocity) + grown * (a.acceleration - b.acceleration);
-  }
-  return a.velocity_at(t) - b.velocity_at(t);
-}
+Vec3 relative_acceleration(const Motion& a, const Motion& b, double t);
+Vec3 relative_velocity(const Motion& a, const Motion& b, double t);
 
 // Both poses of a pair at one time, and B seen from A. Differences of positions and velocities are taken
 // before anything is rotated, so that a pair far from the world's origin keeps its digits.
@@ -151,32 +93,9 @@ struct PairPose {
   double travelled;           // m, the size of what offset_world is the sum of, and
   double turned_a, turned_b;  // rad, about the angles since t = 0: a pose is known to 8 eps times these
 
-  PairPose(const Motion& a, const Motion& b, double t)
-      : rotation_a(a.rotation_at(t)),
-        rotation_b(b.rotation_at(t)),
-        turned_a(a.turned(t)),
-        turned_b(b.turned(t)) {
-    const Vec3 position = b.position - a.position, velocity = b.velocity - a.velocity;
-    const Vec3 acceleration = b.acceleration - a.acceleration;
-    if (a.drag == 0 && b.drag == 0)
-      offset_world = position + t * (velocity + (0.5 * t) * acceleration);
-    else if (a.drag == b.drag)
-      offset_world = position + decayed_time(a.drag, t) * velocity + decayed_square(a.drag, t) * acceleration;
-    else
-      offset_world = position + (b.position_at(t) - b.position) - (a.position_at(t) - a.position);
-    travelled = position.norm() + t * (velocity.norm() + (0.5 * t) * acceleration.norm());
-    b_in_a.rotation = rotation_a.transpose() * rotation_b;
-    b_in_a.position = rotation_a.transpose() * offset_world;
-  }
+  PairPose(const Motion& a, const Motion& b, double t);
   // Of two bodies that stand as they are.
-  PairPose(const Pose& a, const Pose& b)
-      : rotation_a(a.rotation),
-        rotation_b(b.rotation),
-        offset_world(b.position - a.position),
-        b_in_a{a.rotation.transpose() * b.rotation, a.rotation.transpose() * offset_world},
-        travelled(offset_world.norm()),
-        turned_a(0),
-        turned_b(0) {}
+  PairPose(const Pose& a, const Pose& b);
 };
 
 }  // namespace fc::ca
