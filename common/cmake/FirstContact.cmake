@@ -16,7 +16,7 @@ option(FC_SANITIZE "Build with the address and undefined-behaviour sanitizers" O
 add_library(fc_settings INTERFACE)
 target_compile_options(fc_settings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Werror -ffp-contract=off)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 14)
-  target_compile_options(fc_settings INTERFACE -Wno-restrict)  # GCC bug 105329: false alarms on "text" + std::string
+  target_compile_options(fc_settings INTERFACE -Wno-restrict -Wno-stringop-overflow -Wno-array-bounds)  # GCC bugs 105329, 105651: false alarms in std::string
 endif()
 if(FC_BENCH AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   target_compile_options(fc_settings INTERFACE -Wno-maybe-uninitialized)  # GCC bug 105593: false alarms in AVX-512 headers
