@@ -17,6 +17,7 @@ MESH = Path("/usr/share/glmark2/models/bunny.obj")  # Debian's package glmark2-d
 WIDTH, HEIGHT, SAMPLES = 560, 290, 3  # of a panel in pixels; samples per pixel along each axis
 LIGHTS = ((np.array([-0.5, -0.5, 0.75]), 0.75), (np.array([0.8, -0.5, 0.1]), 0.22))  # to the light; strength
 AMBIENT = 0.22
+ROUNDING = 1e-6  # of a pixel's weights: a pixel on an edge belongs to both sides, and not to none
 TITLE = 30  # pixels above each panel
 LEVELS = 80  # of each colour: too fine to see, and a third less to store
 
@@ -25,10 +26,10 @@ def load_obj(file: Path) -> tuple[np.ndarray, np.ndarray]:
     """Vertices (#V by 3, metres) and triangles (#F by 3) of a Wavefront OBJ."""
     if not file.exists():
         raise PlotError(f"{file}: no such mesh; install Debian's package glmark2-data")
-    rows = [line.split() for line in file.read_text().splitlines()]
-    vertices = np.array([row[1:4] for row in rows if row and row[0] == "v"], float)
-    triangles = np.array([[corner.split("/")[0] for corner in row[1:4]] for row in rows if row and row[0] == "f"], int)
-    return vertices, triangles - 1
+    lines = file.read_text().splitlines()
+    vertices = np.array([line.split()[1:4] for line in lines if line.startswith("v ")], float)
+    corners = [line.split()[1:4] for line in lines if line.startswith("f ")]
+    return vertices, np.array([[corner.split("/")[0] for corner in three] for three in corners], int) - 1
 
 
 def center_of_mass(vertices: np.ndarray, triangles: np.ndarray) -> np.ndarray:
@@ -91,42 +92,44 @@ def blurred(image: np.ndarray, radius: int) -> np.ndarray:
     for axis in (0, 1) * 3:
         padded = np.pad(image, [(radius + 1, radius) if k == axis else (0, 0) for k in (0, 1)], mode="edge")
         total = np.cumsum(padded, axis=axis)
-        image = (total.take(range(n, total.shape[axis]), axis) - total.take(range(total.shape[axis] - n), axis)) / n
+        image = (total[n:] - total[:-n] if axis == 0 else total[:, n:] - total[:, :-n]) / n
     return image
 
 
 def rasterize(corners: np.ndarray, colors: np.ndarray, width: int, height: int) -> tuple[np.ndarray, np.ndarray]:
     """Colours (height by width by 3) and depths of the nearest of many small triangles, given by their corners
-    (#F by 3 by (x, y, depth); pixels, larger is nearer) and the colours there (#F by 3 by 3)."""
-    (a, b, c) = (corners[:, k, :2] for k in range(3))
-    area = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
+    (#F by 3 by (x, y, depth); pixels, larger is nearer) and their colours (#F by 3)."""
+    x, y, depth = (corners[:, :, k] for k in range(3))
+    area = (x[:, 1] - x[:, 0]) * (y[:, 2] - y[:, 0]) - (y[:, 1] - y[:, 0]) * (x[:, 2] - x[:, 0])
     keep = area > 1e-12  # those that face the viewer
-    corners, colors, a, b, c, area = (array[keep] for array in (corners, colors, a, b, c, area))
-    low = np.ceil(np.minimum(np.minimum(a, b), c)).astype(int)
-    size = np.floor(np.maximum(np.maximum(a, b), c)).astype(int) - low + 1
-    fragments = []
+    x, y, depth, area, colors = x[keep], y[keep], depth[keep], area[keep][:, None], colors[keep]
+    low_x, low_y = np.ceil(x.min(axis=1)).astype(int), np.ceil(y.min(axis=1)).astype(int)
+    wide, high = np.floor(x.max(axis=1)).astype(int) - low_x + 1, np.floor(y.max(axis=1)).astype(int) - low_y + 1
+    # The weight of corner k at the pixel (low_x + dx, low_y + dy) is across_k dx + along_k dy + rest_k.
+    x, y = x - low_x[:, None], y - low_y[:, None]
+    next_x, next_y, last_x, last_y = (np.roll(array, shift, axis=1) for shift in (-1, -2) for array in (x, y))
+    across, along, rest = (next_y - last_y) / area, (last_x - next_x) / area, (next_x * last_y - last_x * next_y) / area
+    across, along, rest = (array.T.astype(np.float32) for array in (across, along, rest))  # fewer digits do
+    pixels, depths, triangles = [], [], []
     # Visit one pixel of every triangle's bounding box at once, then the next one: few rounds, for triangles are small.
-    for dy in range(size[:, 1].max()):
-        for dx in range(size[size[:, 1] > dy, 0].max()):
-            some = np.flatnonzero((size[:, 0] > dx) & (size[:, 1] > dy))
-            p = low[some] + (dx, dy)
-
-            def edge(u: np.ndarray, v: np.ndarray) -> np.ndarray:
-                u, v = u[some], v[some]
-                return (v[:, 0] - u[:, 0]) * (p[:, 1] - u[:, 1]) - (v[:, 1] - u[:, 1]) * (p[:, 0] - u[:, 0])
-
-            weights = np.stack([edge(b, c), edge(c, a), edge(a, b)], axis=1) / area[some][:, None]
-            inside = (weights >= 0).all(axis=1) & (p >= 0).all(axis=1) & (p < (width, height)).all(axis=1)
-            some, p, weights = some[inside], p[inside], weights[inside]
-            fragments.append(np.column_stack([p[:, 1] * width + p[:, 0], (weights * corners[some, :, 2]).sum(axis=1),
-                                              np.einsum("ij,ijk->ik", weights, colors[some])]))
-    fragment = np.concatenate(fragments)
-    fragment = fragment[np.lexsort((fragment[:, 1], fragment[:, 0]))]  # by pixel, the nearest last
-    fragment = fragment[np.append(np.diff(fragment[:, 0]) > 0, True)]
-    image, depth = np.ones((height * width, 3)), np.full(height * width, -np.inf)
-    pixel = fragment[:, 0].astype(int)
-    image[pixel], depth[pixel] = fragment[:, 2:], fragment[:, 1]
-    return image.reshape(height, width, 3), depth.reshape(height, width)
+    for dy in range(high.max(initial=0)):
+        tall = np.flatnonzero(high > dy)
+        for dx in range(wide[tall].max(initial=0)):
+            some = tall[wide[tall] > dx]
+            weights = np.stack([across[k, some] * dx + along[k, some] * dy + rest[k, some] for k in range(3)])
+            inside = (weights[0] >= -ROUNDING) & (weights[1] >= -ROUNDING) & (weights[2] >= -ROUNDING)
+            some, weights = some[inside], weights[:, inside]
+            px, py = low_x[some] + dx, low_y[some] + dy
+            seen = (px >= 0) & (py >= 0) & (px < width) & (py < height)
+            pixels.append((py * width + px)[seen])
+            depths.append(np.einsum("ki,ik->i", weights, depth[some])[seen])
+            triangles.append(some[seen])
+    pixel, near, triangle = (np.concatenate(parts) if parts else np.zeros(0, int) for parts in (pixels, depths, triangles))
+    order = np.lexsort((near, pixel))  # by pixel, the nearest last
+    order = order[np.append(np.diff(pixel[order]) > 0, True)] if len(order) else order
+    image, nearest = np.ones((height * width, 3)), np.full(height * width, -np.inf)
+    image[pixel[order]], nearest[pixel[order]] = colors[triangle[order]], near[order]
+    return image.reshape(height, width, 3), nearest.reshape(height, width)
 
 
 def shade(normals: np.ndarray, color: str) -> np.ndarray:
@@ -144,13 +147,14 @@ def render(bodies: list, camera: np.ndarray, middle: np.ndarray, scale: float) -
     for vertices, normals, triangles, color in bodies:
         pixels = ((vertices - middle) @ camera.T) * scale * SAMPLES + (width / 2, height / 2, 0)
         corners.append(pixels[triangles])
-        colors.append(shade(normals, color)[triangles])
+        colors.append(shade(normals, color)[triangles].mean(axis=1))  # they are smaller than a pixel of the picture
     image, depth = rasterize(np.concatenate(corners), np.concatenate(colors), width, height)
     # Where the surroundings are nearer, less light comes in: darken creases by the blurred depth (Luft et al. 2006).
     hit = np.isfinite(depth)
-    radius = width // 90
-    around = blurred(np.where(hit, depth, 0), radius) / np.maximum(blurred(hit.astype(float), radius), 1e-9)
-    image[hit] *= (1 - np.clip((around - depth)[hit] / (0.12 * height), 0, 0.6))[:, None]
+    summed, hits = (blurred(array.reshape(HEIGHT, SAMPLES, WIDTH, SAMPLES).mean(axis=(1, 3)), WIDTH // 90)
+                    for array in (np.where(hit, depth, 0), hit.astype(float)))
+    around = (summed / np.maximum(hits, 1e-9)).repeat(SAMPLES, axis=0).repeat(SAMPLES, axis=1)
+    image[hit] *= (1 - np.clip((around - np.where(hit, depth, 0))[hit] / (0.12 * height), 0, 0.6))[:, None]
     return image.reshape(HEIGHT, SAMPLES, WIDTH, SAMPLES, 3).mean(axis=(1, 3))
 
 

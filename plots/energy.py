@@ -12,7 +12,7 @@ import numpy as np
 
 from crowds import Bins, thinned
 from style import (BLUE, GREEN, GREY, ORANGE, PURPLE, RED, SKY, PlotError, Table, fixed_bodies, no_sweep, plot_main, plt,
-                   rests_of, table_if_there)
+                   power_of_ten, rests_of, table_if_there)
 
 ZERO_SHOWN_AT = 1e-18  # on the logarithmic axis; below every rounding error
 ROUNDING = np.finfo(float).eps
@@ -84,7 +84,7 @@ def draw_momentum(axes: plt.Axes, steps: Table, contacts: Table | None) -> float
     decades = np.arange(-18.0, 1 + max(-11, np.ceil(np.log10(max(linear.max(), angular.max()))) + 1), 3)
     axes.set(yscale="log", ylabel="drift [1]", ylim=(ZERO_SHOWN_AT / 5, 10 ** decades[-1]),
              title="Momentum: relative change since the start")
-    axes.set_yticks(10.0 ** decades, ["0"] + [f"$10^{{{d:.0f}}}$" for d in decades[1:]])
+    axes.set_yticks(10.0 ** decades, ["0", *map(power_of_ten, 10.0 ** decades[1:])])
     axes.minorticks_off()
     axes.axhline(ROUNDING, color=GREY, linewidth=0.8, linestyle=":")
     axes.text(t[-1], ROUNDING, "one rounding ", ha="right", va="bottom", color=GREY, fontsize=8)

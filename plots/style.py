@@ -11,6 +11,7 @@ from typing import Callable
 
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.ticker import FuncFormatter
 
 # Okabe and Ito's palette: told apart with any kind of colour vision.
 BLUE, ORANGE, GREEN, RED, SKY, PURPLE, GREY = "#0072B2 #E69F00 #009E73 #D55E00 #56B4E9 #CC79A7 #767676".split()
@@ -141,10 +142,16 @@ def no_sweep(run: Path) -> None:
     raise PlotError(f"{run}: a sweep; give one of its runs: {named or 'none is there'}; all of them: plots/sweep.py {run}")
 
 
+def power_of_ten(value: float, _: int = 0) -> str:
+    """10⁻⁶ as plain text: mathematical text takes ten times as long to draw."""
+    return "10" + str(round(np.log10(value))).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+
+
 def log_limits(axes: plt.Axes, *series: np.ndarray) -> None:
     """A logarithmic y axis around what of the series can stand on it."""
     values = np.concatenate([s[np.isfinite(s) & (s > 0)] for s in series])
     axes.set_yscale("log")
+    axes.yaxis.set_major_formatter(FuncFormatter(power_of_ten))
     if len(values):
         axes.set_ylim(10 ** np.floor(np.log10(values.min()) - 0.1), 10 ** np.ceil(np.log10(values.max()) + 0.1))
 
@@ -189,6 +196,7 @@ def save(figure: plt.Figure, file: Path) -> None:
         raise PlotError(f"{file}: unknown kind of picture; use .svg, .png or .pdf")
     try:
         figure.savefig(file, metadata=metadata[file.suffix])
+        figure.set_layout_engine("none")  # it has been laid out: the same picture in another format stays so
     except OSError as error:
         raise PlotError(f"{file}: cannot be written: {error.strerror}") from None
     print(file)

@@ -268,11 +268,11 @@ class PlotTest(unittest.TestCase):
     def test_the_nearer_triangle_hides_the_other(self):
         far = np.array([[0, 0, 0], [20, 0, 0], [0, 20, 0]], float)
         near = far * (0.5, 0.5, 1) + (0, 0, 1)
-        red, blue = np.array([[1, 0, 0]] * 3, float), np.array([[0, 0, 1]] * 3, float)
+        red, blue = np.array([1.0, 0, 0]), np.array([0, 0, 1.0])
         for order in ([0, 1], [1, 0]):
             image, depth = bunnies.rasterize(np.stack([far, near])[order], np.stack([red, blue])[order], 20, 20)
-            self.assertEqual((image[2, 2].tolist(), depth[2, 2]), ([0, 0, 1], 1))
-            self.assertEqual((image[2, 15].tolist(), depth[2, 15]), ([1, 0, 0], 0))
+            self.assertEqual((image[2, 2].tolist(), round(depth[2, 2], 6)), ([0, 0, 1], 1))
+            self.assertEqual((image[2, 15].tolist(), round(depth[2, 15], 6)), ([1, 0, 0], 0))
             self.assertEqual((image[19, 19].tolist(), depth[19, 19]), ([1, 1, 1], -np.inf))
 
     def test_out(self):
