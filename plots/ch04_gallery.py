@@ -12,6 +12,7 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import PolyCollection
+from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 from style import BLUE, GREEN, GREY, ORANGE, PURPLE, RED, SKY, PlotError, Table, plot_main
 
@@ -132,38 +133,59 @@ def picture(axes: plt.Axes, motion: Motion, time: float) -> None:
     axes.set_axis_off()
 
 
-def curve(axes: plt.Axes, steps: Table, time: float) -> None:
-    t = steps["t"]
-    axes.plot(t, np.cumsum(steps["impacts"]), color=BLUE, lw=1.1)
-    axes.axvline(time, color=GREY, lw=0.6, ls=":")
-    axes.tick_params(labelsize=6.5, colors=BLUE, axis="y", pad=1)
-    axes.tick_params(labelsize=6.5, axis="x", pad=1)
-    axes.grid(False)
-    energy = axes.twinx()
-    energy.plot(t, steps["energy"], color=RED, lw=1.1)
-    low, high = steps["energy"].min(), steps["energy"].max()
+def plain(value: float, _: int = 0) -> str:
+    """20k for 20,000: short enough for a small axis, and no power of ten beside it."""
+    for unit, name in ((1e6, "M"), (1e3, "k")):
+        if abs(value) >= unit:
+            return f"{value / unit:g}{name}"
+    return f"{value:g}"
+
+
+def curve(axes: plt.Axes, t: np.ndarray, impacts: np.ndarray, energy: np.ndarray, time: float) -> None:
+    right = axes.twinx()
+    for panel, values, colour in ((axes, np.cumsum(impacts), BLUE), (right, energy, RED)):
+        panel.plot(t, values, color=colour, lw=1.4)
+        panel.tick_params(axis="y", labelsize=8.5, colors=colour, pad=1)
+        panel.yaxis.set_major_locator(MaxNLocator(3, integer=panel is axes))
+        panel.yaxis.set_major_formatter(FuncFormatter(plain))
+        panel.grid(False)
+    axes.axvline(time, color=GREY, lw=0.8, ls=":")
+    axes.tick_params(axis="x", labelsize=8.5, pad=1)
+    axes.xaxis.set_major_locator(MaxNLocator(5))
+    right.spines["right"].set_visible(False)
+    low, high = energy.min(), energy.max()
     if high - low < 1e-6 * max(abs(high), abs(low)):
-        energy.set_ylim(low - 0.5 * abs(low), low + 0.5 * abs(low) + 1e-9)
-    energy.tick_params(labelsize=6.5, colors=RED, pad=1)
-    energy.spines["right"].set_visible(False)
-    energy.grid(False)
+        right.set_ylim(low - 0.5 * abs(low), low + 0.5 * abs(low) + 1e-9)
 
 
 def draw(runs: Path) -> plt.Figure:
     there = [s for s in SCENES if (runs / s[0] / "motion.glb").exists()]
     if not there:
         raise PlotError(f"{runs}: no runs of the gallery's scenes; run them with --out {runs}/<scene>")
-    columns, rows = 4, -(-len(there) // 4)
-    figure = plt.figure(figsize=(11, 2.85 * rows))
+    columns, rows = 3, -(-(len(there) + 1) // 3)
+    figure = plt.figure(figsize=(11, 3.5 * rows))
     figure.set_layout_engine("none")
+
+    def cell(k: int) -> tuple[float, float]:
+        return (k % columns) / columns, 1 - (k // columns + 1) / rows
+
+    def below(k: int) -> plt.Axes:
+        return figure.add_axes((cell(k)[0] + 0.13 / columns, cell(k)[1] + 0.12 / rows, 0.72 / columns, 0.21 / rows))
+
     for k, (scene, title, time) in enumerate(there):
-        x, y = (k % columns + 0.02) / columns, 1 - (k // columns + 1) / rows
-        axes = figure.add_axes((x, y + 0.36 / rows, 0.96 / columns, 0.54 / rows))
+        x, y = cell(k)
+        axes = figure.add_axes((x + 0.02 / columns, y + 0.36 / rows, 0.96 / columns, 0.54 / rows))
         picture(axes, Motion(runs / scene / "motion.glb"), time)
-        figure.text(x + 0.01, y + 0.93 / rows, title, fontsize=9.5, weight="bold")
-        below = figure.add_axes((x + 0.024, y + 0.11 / rows, 0.72 / columns, 0.22 / rows))
-        curve(below, Table(runs / scene / "steps.csv"), time)
-    figure.text(0.99, 0.004, "below each picture: impacts so far (blue), total energy in J (red), against time in s", ha="right", fontsize=8, color=GREY)
+        figure.text(x + 0.01, y + 0.93 / rows, title, fontsize=11, weight="bold")
+        steps = Table(runs / scene / "steps.csv")
+        curve(below(k), steps["t"], steps["impacts"], steps["energy"], time)
+    key, (x, y) = below(len(there)), cell(len(there))
+    t = np.linspace(0, 1, 60)
+    curve(key, t, (np.arange(60) % 12 == 11).astype(float), 3 - np.floor(5 * t) / 5, 0.5)
+    key.set(xlabel="time [s]")
+    for text, colour, place in (("impacts so far", BLUE, 0.52), ("total energy [J]", RED, 0.44),
+                                ("dotted: when the picture was taken", GREY, 0.36)):
+        figure.text(x + 0.13 / columns, y + place / rows, text, fontsize=9.5, color=colour)
     return figure
 
 
