@@ -162,8 +162,8 @@ class MotionFile {
         slot->scales.resize(slot->scales.size() - 3);
       }
       slot->key(t, c.point, turn, share * kArrowLength * reach);
-      slot->free_from =
-          std::max(static_cast<float>(c.t + hold()), std::nextafter(t, std::numeric_limits<float>::max()));
+      slot->free_from = std::max(static_cast<float>(c.t + (c.rests ? r_.frame_dt_ : hold())),
+                                 std::nextafter(t, std::numeric_limits<float>::max()));
       slot->key(slot->free_from, c.point, turn, 0);
     }
     const int mesh = file_.add(
@@ -195,7 +195,7 @@ class MotionFile {
     e["series"] = series;
     std::vector<float> instants;
     for (const MotionRecording::Contact& c : r_.contacts_)
-      if (instants.empty() || static_cast<float>(c.t) > instants.back())
+      if (!c.rests && (instants.empty() || static_cast<float>(c.t) > instants.back()))
         instants.push_back(static_cast<float>(c.t));
     if (!instants.empty()) e["impact_times"] = file_.floats(instants, Element::scalar);
     e["contact_hold"] = hold();

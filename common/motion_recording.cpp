@@ -61,10 +61,10 @@ void MotionRecording::key(int body, double t, const RigidBody& state) {
   if (bodies_.at(static_cast<std::size_t>(body)).moves) add_key(bodies_[body], t, state, false);
 }
 
-void MotionRecording::contact(double t, const Vec3& point, const Vec3& normal, double size) {
+void MotionRecording::contact(double t, const Vec3& point, const Vec3& normal, double size, bool rests) {
   if (!std::isfinite(t) || !point.allFinite() || !normal.allFinite() || !std::isfinite(size))
     throw std::invalid_argument(fmt::format("a contact at {} s of {} N s that is not finite", t, size));
-  contacts_.push_back({t, point, normal, size});
+  contacts_.push_back({t, point, normal, size, rests});
 }
 
 void MotionRecording::value(const std::string& group, const std::string& name, const std::string& unit,

@@ -30,8 +30,9 @@ class MotionRecording {
   void frame(double t, const std::vector<RigidBody>& bodies);
   // The state of one body just after an impact: its path has a kink there.
   void key(int body, double t, const RigidBody& state);
-  // A contact at a point (m, world) with its unit normal; `size` is its impulse in N s. Shown as an arrow.
-  void contact(double t, const Vec3& point, const Vec3& normal, double size);
+  // A contact at a point (m, world) with its unit normal; `size` is its impulse in N s. Shown as an arrow:
+  // for some frames after an impact, for one frame if it `rests`, for it comes again with the next.
+  void contact(double t, const Vec3& point, const Vec3& normal, double size, bool rests = false);
   // A value of the curve at the last frame's time; curves of one group share their axes. The first frame
   // decides which curves there are.
   void value(const std::string& group, const std::string& name, const std::string& unit, double value);
@@ -56,6 +57,7 @@ class MotionRecording {
     double t;
     Vec3 point, normal;
     double size;
+    bool rests;
   };
   struct Series {
     std::string group, name, unit;

@@ -75,6 +75,14 @@ Cell counter_cell(const Summary& summary, const std::string& stage, std::int64_t
   return "none";
 }
 
+// Columns are known by their names: where a summary tells a quantity by the name of the swept key (the
+// envelope that the run then had), it is called otherwise.
+void name_apart(std::vector<Column>& columns) {
+  std::set<std::string> taken;
+  for (Column& column : columns)
+    while (!taken.insert(column.name).second) column.name += " in the run";
+}
+
 }  // namespace
 
 Sweep parse_sweep(const std::string& text) {
@@ -128,6 +136,7 @@ void write_sweep(const std::filesystem::path& file, const Sweep& sweep, const st
   }
   columns.push_back({"exit_code", ""});
 
+  name_apart(columns);
   TableWriter table(file, columns);
   for (const SweepRun& run : runs) {
     std::vector<Cell> row = {run.value};

@@ -16,10 +16,13 @@ std::vector<Column> steps_columns() {
           {"lcp_residual", ""}, {"lost_time", "s"}, {"ccd_ns", ""},           {"lcp_ns", ""},
           {"step_ns", ""}};
 }
-std::vector<Column> contacts_columns() {
-  return {{"t", "s"},          {"body_a", ""},     {"body_b", ""},    {"x", "m"}, {"y", "m"},
-          {"z", "m"},          {"nx", ""},         {"ny", ""},        {"nz", ""}, {"gap", "m"},
-          {"v_before", "m/s"}, {"v_after", "m/s"}, {"impulse", "N s"}};
+std::vector<Column> contacts_columns(bool kinds) {
+  std::vector<Column> columns = {{"t", "s"},        {"body_a", ""}, {"body_b", ""},      {"x", "m"},
+                                 {"y", "m"},        {"z", "m"},     {"nx", ""},          {"ny", ""},
+                                 {"nz", ""},        {"gap", "m"},   {"v_before", "m/s"}, {"v_after", "m/s"},
+                                 {"impulse", "N s"}};
+  if (kinds) columns.push_back({"kind", ""});
+  return columns;
 }
 std::vector<Column> poses_columns() {
   return {{"t", "s"},    {"body", ""},  {"px", "m"},     {"py", "m"},     {"pz", "m"},
@@ -47,9 +50,10 @@ Totals totals_of(const World& world) {
   return totals;
 }
 
-Recorder::Recorder(const Scene& scene, const World& world, const RunContext& context)
-    : steps_(context.out_dir / "steps.csv", steps_columns()),
-      contacts_(context.out_dir / "contacts.csv", contacts_columns()),
+Recorder::Recorder(const Scene& scene, const World& world, const RunContext& context, bool kinds)
+    : kinds_(kinds),
+      steps_(context.out_dir / "steps.csv", steps_columns()),
+      contacts_(context.out_dir / "contacts.csv", contacts_columns(kinds)),
       motion_(scene.name, context.chapter, scene.step->dt),
       folder_(context.out_dir),
       dt_(scene.step->dt) {
@@ -64,7 +68,7 @@ void Recorder::start(const World& world) {
   nothing.min_gap = std::numeric_limits<double>::infinity();
   steps_row(world, 0, 0, nothing);
   poses_rows(world, 0);
-  motion_frame(world, 0, 0, 0);
+  motion_frame(world, 0, 0, 0, 0);
 }
 
 void Recorder::instant(const World& world, double time) {
@@ -77,11 +81,12 @@ void Recorder::instant(const World& world, double time) {
 void Recorder::frame(const World& world, int number, double t, const StepReport& report) {
   double impulse = 0;
   for (const ImpactRecord& record : impacts_) impulse += record.impulse.impulse;
+  const int contacts = static_cast<int>(impacts_.size());
   write_impacts((number - 1) * dt_);
   write_sightings((number - 1) * dt_);
   steps_row(world, number, t, report);
   poses_rows(world, t);
-  motion_frame(world, t, impulse, report.impacts);
+  motion_frame(world, t, impulse, contacts, report.impacts);
   reports_.push_back(report);
 }
 
@@ -90,11 +95,24 @@ void Recorder::write_impacts(double frame_start) {
   for (const ImpactRecord& record : impacts_) {
     const double t = frame_start + record.time;
     const lcp::Contact& c = record.contact;
-    if (!first_impact_) first_impact_ = t;
-    contacts_.row({t, std::int64_t{c.body_a}, std::int64_t{c.body_b}, c.point.x(), c.point.y(), c.point.z(),
-                   c.normal.x(), c.normal.y(), c.normal.z(), c.gap, record.impulse.v_before,
-                   record.impulse.v_after, record.impulse.impulse});
-    motion_.contact(t, c.point, c.normal, record.impulse.impulse);
+    const bool rests = record.kind == ContactKind::rest;
+    if (!first_impact_ && !rests) first_impact_ = t;
+    std::vector<Cell> row = {t,
+                             std::int64_t{c.body_a},
+                             std::int64_t{c.body_b},
+                             c.point.x(),
+                             c.point.y(),
+                             c.point.z(),
+                             c.normal.x(),
+                             c.normal.y(),
+                             c.normal.z(),
+                             c.gap,
+                             record.impulse.v_before,
+                             record.impulse.v_after,
+                             record.impulse.impulse};
+    if (kinds_) row.emplace_back(rests ? "rest" : "impact");
+    contacts_.row(row);
+    motion_.contact(t, c.point, c.normal, record.impulse.impulse, rests);
   }
   kinks_.clear();
   impacts_.clear();
@@ -118,7 +136,7 @@ std::string Recorder::close() {
   return motion_.write(folder_);
 }
 
-void Recorder::motion_frame(const World& world, double t, double impulse, int contacts) {
+void Recorder::motion_frame(const World& world, double t, double impulse, int contacts, int impacts) {
   std::vector<RigidBody> states;
   for (const Body& body : world.bodies) states.push_back(body.state);
   motion_.frame(t, states);
@@ -130,6 +148,7 @@ void Recorder::motion_frame(const World& world, double t, double impulse, int co
   }
   motion_.value("impulse", "impulse in the frame", "N s", impulse);
   motion_.value("contacts", "contacts in the frame", "", contacts);
+  if (kinds_) motion_.value("contacts", "impacts in the frame", "", impacts);
 }
 
 void Recorder::steps_row(const World& world, int number, double t, const StepReport& r) {
@@ -244,7 +263,7 @@ void summarize(const Scene& scene, const World& world, const std::vector<StepRep
   const auto meshes = std::count_if(world.bodies.begin(), world.bodies.end(), [&](const Body& body) {
     return world.shapes[body.shape].kind == Shape::Kind::mesh;
   });
-  if (meshes >= 2 && with_contact > 0) {  // the paper's row (its section 5) beside ours
+  if (scene.name == "two_bunnies" && meshes >= 2 && with_contact > 0) {  // the demo: the paper's row (its section 5)
     const auto ms = [](std::int64_t ns) { return 1e-6 * static_cast<double>(ns); };
     summary.add_note("paper: contacts in a frame with contact",
                      "a few to dozens (two bunnies, 70,000 triangles)");

@@ -23,7 +23,8 @@ Totals totals_of(const World& world);
 
 class Recorder {
  public:
-  Recorder(const Scene& scene, const World& world, const RunContext& context);
+  // kinds: contacts.csv has the column `kind`.
+  Recorder(const Scene& scene, const World& world, const RunContext& context, bool kinds = false);
 
   void start(const World& world);  // row 0
   // To be called inside a step, with times within the frame: they only take notes.
@@ -43,7 +44,7 @@ class Recorder {
   void write_sightings(double frame_start);
   void steps_row(const World& world, int number, double t, const StepReport& report);
   void poses_rows(const World& world, double t);
-  void motion_frame(const World& world, double t, double impulse, int contacts);
+  void motion_frame(const World& world, double t, double impulse, int contacts, int impacts);
 
   struct Kink {  // a body's state just after an impact
     int body;
@@ -51,6 +52,7 @@ class Recorder {
     RigidBody state;
   };
 
+  bool kinds_;
   TableWriter steps_, contacts_;
   std::optional<TableWriter> poses_, sensors_;
   MotionRecording motion_;

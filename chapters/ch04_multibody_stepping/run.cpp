@@ -5,8 +5,8 @@
 
 namespace fc::world {
 
-int run_scene(const Scene& scene, const RunContext& context, Summary& summary,
-              const StepFunction& step_frame) {
+int run_scene(const Scene& scene, const RunContext& context, Summary& summary, const StepFunction& step_frame,
+              bool kinds) {
   const Stopwatch watch;
   World world = build_world(scene);
   const std::int64_t built_ns = watch.ns();
@@ -19,7 +19,7 @@ int run_scene(const Scene& scene, const RunContext& context, Summary& summary,
   summary.add_time("time to build shapes and hierarchies", built_ns);
 
   const StepSpec& step = *scene.step;
-  Recorder recorder(scene, world, context);
+  Recorder recorder(scene, world, context, kinds);
   recorder.start(world);
   Progress progress("frames", step.frames, context.quiet);
   try {

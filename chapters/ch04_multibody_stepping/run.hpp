@@ -12,8 +12,9 @@ namespace fc::world {
 using StepFunction = std::function<StepReport(World&, double dt, const Listeners&)>;
 
 // Builds the world, steps through all frames, writes contract 1.5's files into the run's folder, and fills
-// the summary. The exit code; throws as build_world() and the step do (what was written so far stays).
-int run_scene(const Scene& scene, const RunContext& context, Summary& summary,
-              const StepFunction& step_frame);
+// the summary. `kinds`: the step's contacts may last, so contacts.csv says of which kind each is. The exit
+// code; throws as build_world() and the step do (what was written so far stays).
+int run_scene(const Scene& scene, const RunContext& context, Summary& summary, const StepFunction& step_frame,
+              bool kinds = false);
 
 }  // namespace fc::world

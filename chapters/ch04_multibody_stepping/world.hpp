@@ -146,11 +146,15 @@ struct StepReport {
   std::int64_t queries = 0, node_pairs = 0, ccd_ns = 0, lcp_ns = 0, step_ns = 0;
 };
 
+// What an impulse was for: bodies that met, or (from chapter 5 on) a contact that lasts.
+enum class ContactKind { impact, rest };
+
 // One contact with an impulse, for contacts.csv.
 struct ImpactRecord {
   double time = 0;  // s in the frame
   lcp::Contact contact;
   lcp::Impulse impulse;
+  ContactKind kind = ContactKind::impact;
 };
 using OnImpact = std::function<void(const ImpactRecord&)>;
 using OnSighting = std::function<void(const Sighting&)>;

@@ -23,28 +23,31 @@ std::vector<Effect> explain(const Scene& scene) {
 
 int run(const Scene& scene, const RunContext& context, Summary& summary) {
   if (!scene.envelope)
-    return world::run_scene(scene, context, summary, world::step);  // chapter 4, to the byte
+    return world::run_scene(scene, context, summary, world::step, true);  // chapter 4's motion, to the byte
   std::unique_ptr<resting::Resting> resting;
-  std::int64_t contacts = 0, sweeps = 0, searched = 0, stopped = 0, checked = 0;
+  std::int64_t contacts = 0, resting_contacts = 0, sweeps = 0, searched = 0, stopped = 0, checked = 0;
   int largest = 0;
   double energy = 0, steered = 0;
-  const int code = world::run_scene(scene, context, summary,
-                                    [&](world::World& world, double dt, const world::Listeners& listeners) {
-                                      if (!resting)
-                                        resting = std::make_unique<resting::Resting>(scene, world, dt);
-                                      const auto report = resting->step(world, listeners);
-                                      contacts += report.shell_contacts;
-                                      sweeps += report.sweeps;
-                                      searched += report.searched;
-                                      stopped += report.stopped;
-                                      checked += report.checked;
-                                      largest = std::max(largest, report.largest_island);
-                                      energy += report.steering_energy;
-                                      steered = std::max(steered, report.steered);
-                                      return report.step;
-                                    });
+  const int code = world::run_scene(
+      scene, context, summary,
+      [&](world::World& world, double dt, const world::Listeners& listeners) {
+        if (!resting) resting = std::make_unique<resting::Resting>(scene, world, dt);
+        const auto report = resting->step(world, listeners);
+        contacts += report.shell_contacts;
+        resting_contacts += report.resting;
+        sweeps += report.sweeps;
+        searched += report.searched;
+        stopped += report.stopped;
+        checked += report.checked;
+        largest = std::max(largest, report.largest_island);
+        energy += report.steering_energy;
+        steered = std::max(steered, report.steered);
+        return report.step;
+      },
+      true);
   if (resting) summary.add("envelope", resting->envelope(), "m");
   summary.add("contacts in the envelope", contacts);
+  summary.add("resting contacts with an impulse", resting_contacts);
   summary.add("largest island", std::int64_t{largest}, "rows");
   summary.add("largest correction of a position in a frame", steered, "m");
   summary.add("potential energy added by corrections", energy, "J");

@@ -352,10 +352,13 @@ void Resting::tell(const world::World& world, const world::Listeners& listeners,
   for (std::size_t i = 0; i < taken_.size(); ++i) {
     const ShellContact& c = shell_.contacts()[i];
     if (!(taken_[i] || row_[i] >= 0) || !(c.impulse > 0)) continue;
-    ++report.step.impacts;
+    const bool bounces = c.bounce > 0;
+    ++(bounces ? report.step.impacts : report.resting);
     report.step.kinematic_work += lcp::kinematic_work(start_, c.contact, c.impulse);
     any = true;
-    if (listeners.impact) listeners.impact({0, c.contact, {0, 0, c.before, c.after, c.impulse}});
+    if (!listeners.impact) continue;
+    const auto kind = bounces ? world::ContactKind::impact : world::ContactKind::rest;
+    listeners.impact({0, c.contact, {0, 0, c.before, c.after, c.impulse}, kind});
   }
   if (listeners.instant && any) listeners.instant(world, 0);
 }

@@ -17,6 +17,7 @@ namespace fc::resting {
 struct RestReport {
   world::StepReport step;  // all of the frame, resting contacts included
   int shell_contacts = 0;
+  int resting = 0;                      // contacts that last, and got an impulse
   std::int64_t searched = 0;            // pairs whose contacts were searched anew
   std::int64_t checked = 0;             // ways of pairs through the frame that were to be proved
   int crowded = 0;                      // bodies in crowds: see Resting

@@ -38,6 +38,30 @@ step: {dt: 0.016666666666666666, duration: 0.5}
 shapes: {ball: {sphere: {radius: 0.3}, mass: 1}}
 bodies: [{shape: ball, grid: {count: [10, 10, 10], spacing: [1, 1, 1]}, velocity: [1, 0, 0], spin: [0, 0, 3]}]
 """
+# A ball falls on a floor of 80 m that lies 100 m up, bounces, and lies; three others lie beside it from the start, and one, far
+# from them, is shot away.
+REST = """
+name: rest
+step: {dt: 0.016666666666666666, duration: 2}
+gravity: [0, 0, -9.81]
+restitution: 0.4
+envelope: 5.0e-4
+shapes: {ball: {sphere: {radius: 0.5}, mass: 1}, floor: {box: {size: [80, 80, 1]}}}
+bodies:
+  - {shape: ball, position: [0, 0, 101.5]}
+  - {shape: ball, grid: {count: [3, 1, 1], spacing: [1.5, 1.5, 1.5]}, position: [2, 0, 100.5]}
+  - {shape: ball, position: [10, 0, 101.5], velocity: [0, 200, 30]}
+  - {shape: floor, static: true, position: [0, 0, 99.5]}
+"""
+# A wall stands between the ball and where the page looks from first.
+HIDDEN = """
+name: hidden
+step: {dt: 0.05, duration: 0.5}
+shapes: {ball: {sphere: {radius: 0.5}, mass: 1}, wall: {box: {size: [4, 0.1, 4]}}}
+bodies:
+  - {shape: ball, velocity: [0.1, 0, 0]}
+  - {shape: wall, static: true, position: [0.78, -1, 0.46]}
+"""
 
 
 def run(chapter: str, scene: Path, out: Path) -> Path:
@@ -68,6 +92,8 @@ class BrowserTest(unittest.TestCase):
         cls.folder = Path(cls.temporary.name)
         (cls.folder / "balls.yaml").write_text(BALLS)
         (cls.folder / "crowd.yaml").write_text(CROWD)
+        (cls.folder / "rest.yaml").write_text(REST)
+        cls.rest = run("ch05_resting_contact", cls.folder / "rest.yaml", cls.folder / "rest")
         cls.balls = run("ch04_multibody_stepping", cls.folder / "balls.yaml", cls.folder / "balls")
         cls.page = Page(seconds=900)
 
@@ -76,9 +102,9 @@ class BrowserTest(unittest.TestCase):
         cls.page.close()
         cls.temporary.cleanup()
 
-    def broken(self, old: str, new: str) -> Path:
+    def broken(self, old: str, new: str, page: Path | None = None) -> Path:
         """A copy of the page with a mistake planted."""
-        text = self.balls.read_text(encoding="utf-8")
+        text = (page or self.balls).read_text(encoding="utf-8")
         self.assertIn(old, text)
         file = self.folder / "broken.html"
         file.write_text(text.replace(old, new), encoding="utf-8")
@@ -175,6 +201,89 @@ class BrowserTest(unittest.TestCase):
         self.assertGreater(np.abs(pixels(self.page) - first).mean(), 0.5)
         self.page.press("r")
         self.assertEqual(np.abs(pixels(self.page) - first).max(), 0)
+
+    def told(self) -> tuple[str, str]:
+        """The count of contacts in the box, and in the strip."""
+        self.page.settle()
+        return tuple(self.page.js("""(() => {
+          const box = [...document.querySelectorAll('#info tr')].find(row => row.cells[0].textContent === 'contacts').cells[1].textContent;
+          const written = [], plain = CanvasRenderingContext2D.prototype.fillText;
+          CanvasRenderingContext2D.prototype.fillText = function (text) { written.push(text); };
+          drawStrips();
+          CanvasRenderingContext2D.prototype.fillText = plain;
+          return [box, written.find(text => text.startsWith('contacts in the frame')).split(': ')[1].trim()];
+        })()"""))
+
+    def counts(self, file: Path) -> list[tuple[str, str]]:
+        self.open(file)
+        found = []
+        for time in (0, 0.4, 0.47, 0.4833, 1.5):
+            self.page.js(f"viewer.seek({time})")
+            found.append(self.told())
+        return found
+
+    def test_tells_one_count_of_contacts(self):
+        for box, strip in self.counts(self.rest):
+            self.assertEqual(box, strip)
+        self.assertEqual(self.told(), ("4", "4"), "four balls lie")
+        broken = self.broken("short(contactsNow())", "String(motion.contacts.filter(c => c.scale > 0).length)", self.rest)
+        self.assertTrue(any(box != strip for box, strip in self.counts(broken)))
+
+    def times_of_impacts(self, file: Path) -> list[float]:
+        self.open(file)
+        times = []
+        for _ in range(40):
+            self.page.press("n")
+            times.append(self.state()["time"])
+        return sorted(set(times))
+
+    def test_jumps_to_impacts_and_not_to_what_lies(self):
+        with (self.rest.parent / "contacts.csv").open() as stream:
+            rows = [line.strip().split(",") for line in stream][1:]
+        impacts = sorted({float(row[0]) for row in rows if row[-1] == "impact"})
+        self.assertGreater(len([row for row in rows if row[-1] == "rest"]), 300)
+        self.assertTrue(2 < len(impacts) < 40)
+        np.testing.assert_allclose(self.times_of_impacts(self.rest), impacts, atol=2e-6)
+        frames = self.broken("toImpact(1), n: () => toImpact(1)", "stepFrames(1), n: () => stepFrames(1)", self.rest)
+        self.assertGreater(len(self.times_of_impacts(frames)), len(impacts))
+
+    def test_potential_counts_from_the_lowest(self):
+        self.open(self.rest, "?t=2")
+        curves = self.page.js("Object.fromEntries(motion.series.map(s => [s.name, [...s.values]]))")
+        self.assertAlmostEqual(min(curves["potential"]), 0, places=6)
+        self.assertLess(curves["total"][0], 25_000)  # of the one that is shot away; 4,900 J of all others' places are gone
+        lying = self.broken("v => v - lowest", "v => v", self.rest)
+        self.open(lying, "?t=2")
+        self.assertGreater(self.page.js("Math.min(...motion.series.find(s => s.name === 'potential').values)"), 3000)
+
+    def view_of(self, file: Path) -> dict:
+        self.open(file)
+        return self.state()["view"]
+
+    def test_looks_at_the_many_and_not_at_one_that_runs_away(self):
+        view = self.view_of(self.rest)
+        self.assertLess(view["distance"], 30)
+        np.testing.assert_allclose(view["target"], (2.5, 0, 100.75), atol=2.5)
+        spoiled = self.view_of(self.broken("moving.length < 3 ? Infinity", "moving.length < 3000 ? Infinity", self.rest))
+        self.assertGreater(spoiled["distance"], 100)
+
+    def test_what_hides_the_bodies_is_seen_through(self):
+        (self.folder / "hidden.yaml").write_text(HIDDEN)
+        page = run("ch04_multibody_stepping", self.folder / "hidden.yaml", self.folder / "hidden")
+        self.open(page)
+        self.assertGreater(count(pixels(self.page), "blue"), 1000)
+        self.open(self.broken("share > 0 && share < 1) return true", "share > 0 && share < 1) return false", page))
+        self.assertEqual(count(pixels(self.page), "blue"), 0)
+
+    def time_after_an_old_clock(self, file: Path) -> float:
+        """A picture's clock may be of before the page was ready."""
+        self.open(file)
+        self.page.js("viewer.play(true); draw(performance.now() - 5000)")
+        return self.page.js("now.time")
+
+    def test_time_never_runs_backwards(self):
+        self.assertGreaterEqual(self.time_after_an_old_clock(self.balls), 0)
+        self.assertLess(self.time_after_an_old_clock(self.broken("Math.max(0, Math.min(0.1, ", "(Math.min(0.1, ")), 0)
 
     def test_levels_of_the_hierarchy(self):
         bunny = Path("/usr/share/glmark2/models/bunny.obj")

@@ -28,7 +28,7 @@ TEST(Bunny, InABowl) {
       sim.step();
       rise = std::max(rise, sim.energy() - energy - sim.last.steering_energy);
       energy = sim.energy();
-      contacts += sim.last.step.impacts;
+      contacts += sim.last.step.impacts + sim.last.resting;
       const auto states = states_of(sim.world, 0);
       ASSERT_FALSE(independent::overlap(solids[0], states[0], solids[1], states[1]))
           << "in frame " << sim.frame << with;

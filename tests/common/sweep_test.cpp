@@ -52,4 +52,14 @@ TEST(Sweep, WritesOneRowPerRunWithUnits) {
             "\"[2,2,2]\",0.5,none,\"short, but here\",none,none,3\n");
 }
 
+// The envelope that a run had is told by the name of the key that may be swept.
+TEST(Sweep, NamesNoTwoColumnsAlike) {
+  fc::Summary summary;
+  summary.add("drift", 0.25, "J");
+  summary.add("envelope", 1e-4, "m");
+  const auto file = std::filesystem::path(testing::TempDir()) / "first_contact_twice.csv";
+  fc::write_sweep(file, {"envelope", {"1e-4"}}, {{"1e-4", summary, 0}});
+  EXPECT_EQ(contents(file), "envelope [m],drift [J],envelope in the run [m],exit_code\n1e-4,0.25,0.0001,0\n");
+}
+
 }  // namespace

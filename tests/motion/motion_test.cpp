@@ -187,6 +187,21 @@ TEST(Motion, DrawsEveryKindOfShapeOutwards) {
   }
 }
 
+TEST(Motion, TellsImpactsFromContactsThatLast) {
+  MotionRecording motion("rest", "test", 0.1);
+  motion.add_shape(shape(fc::Shape::Kind::sphere));
+  motion.add_body(0, body(Vec3::Zero()));
+  motion.frame(0, {body(Vec3::Zero())});
+  motion.contact(0.25, Vec3::Zero(), Vec3::UnitZ(), 2);
+  for (int k = 3; k < 8; ++k) motion.contact(0.1 * k, Vec3::Zero(), Vec3::UnitZ(), 1, true);
+  motion.frame(0.8, {body(Vec3::Zero())});
+  const Glb glb = written(motion, "rest");
+  const auto& extras = glb.json["scenes"][0]["extras"];
+  EXPECT_EQ(glb.numbers(extras["impact_times"]), std::vector<double>{0.25});
+  EXPECT_EQ(glb.json["nodes"].size(), 4u)
+      << "the world, the body, the impact's arrow, and one that comes again";
+}
+
 TEST(Motion, ReusesHiddenArrows) {
   MotionRecording motion("arrows", "test", 0.1);
   motion.add_shape(shape(fc::Shape::Kind::sphere));
