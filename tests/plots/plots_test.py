@@ -63,6 +63,13 @@ class PlotTest(unittest.TestCase):
         self.assertNotIn(b"<dc:date>", results[0])
         return results[0].decode()
 
+    def drawn(self, script: str) -> str:
+        """The SVG of one drawing."""
+        picture = self.folder / "picture.svg"
+        done = plot_here(script, self.run_dir, "--out", picture)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        return picture.read_text(encoding="utf-8")
+
     def assert_fails(self, message: str, script: str, *arguments: object) -> None:
         done = plot_here(script, *arguments)
         self.assertEqual(done.returncode, 2, done.stderr)
@@ -122,7 +129,7 @@ class PlotTest(unittest.TestCase):
     def test_a_heap_is_drawn_in_bands(self):
         for kinds in (True, False):
             synthetic.heap(self.run_dir, kinds=kinds)
-            svg = self.assert_draws("contacts")
+            svg = self.drawn("contacts")
             self.assertLess(len(svg), 300_000)
             for text in ("5–95 %", "median", "largest", "envelope h, 0.0005 m", "h/2, 0.00025 m", "tolerance, 1e-06 m"):
                 self.assertIn(text, svg)
@@ -145,7 +152,7 @@ class PlotTest(unittest.TestCase):
 
     def test_energy_of_what_rests(self):
         synthetic.heap(self.run_dir)
-        svg = self.assert_draws("energy")
+        svg = self.drawn("energy")
         for text in ("impact (3 instants)", "added by corrections", "momentum is not drawn: gravity and fixed bodies change it"):
             self.assertIn(text, svg)
         panels = self.panels("energy")
@@ -158,15 +165,15 @@ class PlotTest(unittest.TestCase):
 
     def test_many_impacts_are_counted_not_lined_up(self):
         synthetic.heap(self.run_dir, kinds=False)
-        self.assertIn("impacts (303 instants): how many", self.assert_draws("energy"))
+        self.assertIn("impacts (303 instants): how many", self.drawn("energy"))
         energy = next(iter(self.panels("energy").values()))
         self.assertLess(len(energy.lines), 10)
 
     def test_momentum_with_fixed_bodies(self):
         synthetic.passing_by(self.run_dir)
-        self.assertIn("relative change since the start", self.assert_draws("energy"))
+        self.assertIn("relative change since the start", self.drawn("energy"))
         synthetic.motion(self.run_dir / "motion.glb", fixed=True)
-        svg = self.assert_draws("energy")
+        svg = self.drawn("energy")
         self.assertNotIn("relative change since the start", svg)
         self.assertIn("momentum is not drawn: fixed bodies change it", svg)
         (self.run_dir / "motion.glb").write_bytes(b"glTF")
