@@ -50,7 +50,7 @@ StepSpec read_step(const Section& step) {
 void check_subject(const Section& scene, int chapter) {
   for (const char* instead : {"lcp", "linear"}) {
     if (!scene.has(instead)) continue;
-    for (const char* key : {"shapes", "bodies", "contacts", "motions"}) {
+    for (const char* key : {"shapes", "pairs", "bodies", "contacts", "motions"}) {
       if (!scene.has(key)) continue;
       refuse(scene.entry(key).key_place, fmt::format("'{}' beside '{}'; keep one of them", key, instead));
     }
@@ -116,6 +116,7 @@ Scene read_checked(const Section& root, const SceneSource& source) {
   }
   check_subject(root, source.chapter);
   if (root.has("shapes")) scene.shapes = read_shapes(root, source);
+  if (root.has("pairs")) scene.pairs = read_pairs(root, scene.shapes);
   if (root.has("bodies")) scene.bodies = read_bodies(root, scene.shapes);
   scene.interval = root.get_or(number_value, "interval", scene.interval);
   if (root.has("motions")) scene.motions = resolved_file(root, "motions", source);
@@ -127,6 +128,11 @@ Scene read_checked(const Section& root, const SceneSource& source) {
 }
 
 }  // namespace
+
+std::string Scene::body_text(int body) const {
+  const std::string& given = bodies.at(static_cast<std::size_t>(body)).name;
+  return given.empty() ? std::to_string(body) : fmt::format("{} ({})", body, in_quotes(given));
+}
 
 Scene read_scene(const SceneSource& source) {
   const auto origin = std::make_shared<const std::string>(source.file.string());

@@ -56,7 +56,8 @@ struct ShapeSpec {
 };
 
 struct BodySpec {
-  int shape = 0;  // index into Scene::shapes
+  std::string name;  // empty: none
+  int shape = 0;     // index into Scene::shapes
   bool is_static = false;
   bool is_kinematic = false;            // moves with its velocity and spin, whatever it hits
   bool is_sensor = false;               // reports contacts, resolves none
@@ -65,6 +66,13 @@ struct BodySpec {
   Vec3 velocity = Vec3::Zero();         // m/s, of the centre of mass
   Vec3 spin = Vec3::Zero();             // rad/s, world axes
   SourceMark where;                     // the list item it came from
+};
+
+// What two shapes do to each other, instead of the rule for pairs.
+struct PairSpec {
+  int shape_a = 0, shape_b = 0;  // indices into Scene::shapes, ascending; may be equal
+  double restitution = 0;        // [0, 1]
+  SourceMark where;
 };
 
 struct StepSpec {
@@ -125,6 +133,7 @@ struct Scene {
   CcdSpec ccd;
   SolverSpec solver;
   std::vector<ShapeSpec> shapes;                         // in file order
+  std::vector<PairSpec> pairs;                           // in file order, no two shapes twice
   std::vector<BodySpec> bodies;                          // grids expanded, numbered from 0
   double interval = 1;                                   // s (chapters 1, 2)
   std::optional<std::filesystem::path> motions, linear;  // resolved: they exist
@@ -132,6 +141,9 @@ struct Scene {
   std::optional<LcpSpec> lcp;
   std::map<std::string, SourceMark>
       key_marks;  // every key present, by its dotted path ("ccd.tolerance"), for --explain
+
+  // A body in a message: "3", or "3 ('door')".
+  std::string body_text(int body) const;
 
   // The mark of a key, or nothing if the scene does not have it.
   std::optional<SourceMark> mark(const std::string& path) const {

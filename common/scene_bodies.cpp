@@ -1,8 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <tuple>
 #include <unordered_map>
 
+#include "common/number_text.hpp"
 #include "common/scene_parts.hpp"
 #include "common/text.hpp"
 
@@ -13,27 +17,59 @@ constexpr std::int64_t most_bodies = 1'000'000;
 
 using ShapeIndex = std::unordered_map<std::string, int>;
 
-int shape_index(const Section& body, const ShapeIndex& index) {
-  const std::string name = body.get(text_value, "shape");
+ShapeIndex index_of(const std::vector<ShapeSpec>& shapes) {
+  ShapeIndex index;
+  for (const ShapeSpec& shape : shapes) index.emplace(shape.name, static_cast<int>(index.size()));
+  return index;
+}
+
+// The shape that a key of a section names.
+int shape_index(const Section& section, const char* key, const ShapeIndex& index) {
+  const std::string name = section.get(text_value, key);
   if (const auto it = index.find(name); it != index.end()) return it->second;
   std::vector<std::string> names;
   for (const auto& [known, number] : index) names.push_back(known);
   std::sort(names.begin(), names.end());
-  refuse(body.node("shape").place, fmt::format("no shape is named {}; the nearest name under 'shapes' is {}",
-                                               in_quotes(name), in_quotes(nearest(name, names))));
+  refuse(section.node(key).place, fmt::format("no shape is named {}; the nearest name under 'shapes' is {}",
+                                              in_quotes(name), in_quotes(nearest(name, names))));
+}
+
+// A name by which nothing else can be meant: a number is another body's, and `world` is no body.
+std::string read_name(const Section& body) {
+  const std::string name = body.get(text_value, "name");
+  const auto refuse_name = [&](const std::string& problem) {
+    refuse(body.node("name").place, in_quotes(name) + " " + problem);
+  };
+  double ignored = 0;
+  if (read_number(name, ignored) != NumberText::not_a_number)
+    refuse_name("is a number, as every body has one; give it a name of letters");
+  if (name == "world") refuse_name("is what bodies are joined to; give the body another name");
+  if (body.has("grid")) refuse_name("would be the name of every body of the grid; remove 'name' or 'grid'");
+  return name;
+}
+
+Quat read_orientation(const Section& placed) {
+  if (!placed.has("rotation")) return placed.get_or(quaternion_value, "orientation", Quat::Identity());
+  if (placed.has("orientation"))
+    refuse(placed.entry("rotation").key_place, "'rotation' beside 'orientation'; keep one of them");
+  const Section rotation = placed.section("rotation");
+  constexpr double full_turn = 360;  // beyond it an angle says nothing new, and its half loses digits
+  const double degrees = std::remainder(rotation.get(number_value, "degrees"), full_turn);
+  return Quat(Eigen::AngleAxisd(degrees * std::numbers::pi / 180, rotation.get(direction_value, "axis")));
 }
 
 BodySpec read_body(const Section& body, const ShapeIndex& index) {
   BodySpec spec;
   spec.where = body.place().mark();
-  spec.shape = shape_index(body, index);
+  if (body.has("name")) spec.name = read_name(body);
+  spec.shape = shape_index(body, "shape", index);
   spec.is_static = body.get_or(boolean_value, "static", false);
   spec.is_kinematic = body.get_or(boolean_value, "kinematic", false);
   spec.is_sensor = body.get_or(boolean_value, "sensor", false);
   if (spec.is_static && spec.is_kinematic)
     refuse(body.entry("kinematic").key_place, "a static body does not move; remove 'kinematic' or 'static'");
   spec.position = body.get_or(vector_value, "position", spec.position);
-  spec.orientation = body.get_or(quaternion_value, "orientation", spec.orientation);
+  spec.orientation = read_orientation(body);
   spec.velocity = body.get_or(vector_value, "velocity", spec.velocity);
   spec.spin = body.get_or(vector_value, "spin", spec.spin);
   for (const char* key : {"velocity", "spin"}) {
@@ -70,23 +106,48 @@ void append_bodies(const Section& body, const BodySpec& spec, std::vector<BodySp
 
 }  // namespace
 
+std::vector<PairSpec> read_pairs(const Section& scene, const std::vector<ShapeSpec>& shapes) {
+  const ShapeIndex index = index_of(shapes);
+  std::vector<PairSpec> pairs;
+  for (const YamlPtr& item : scene.node("pairs").items) {
+    const Section pair(*item, "pairs[]");
+    PairSpec spec;
+    std::tie(spec.shape_a, spec.shape_b) =
+        std::minmax({shape_index(pair, "a", index), shape_index(pair, "b", index)});
+    spec.restitution = pair.get(number_value, "restitution");
+    spec.where = pair.place().mark();
+    for (const PairSpec& other : pairs)
+      if (other.shape_a == spec.shape_a && other.shape_b == spec.shape_b)
+        refuse(pair.place(), fmt::format("the pair of {} and {} stands at {} already; keep one of them",
+                                         in_quotes(pair.get(text_value, "a")),
+                                         in_quotes(pair.get(text_value, "b")), other.where.text()));
+    pairs.push_back(spec);
+  }
+  return pairs;
+}
+
 std::vector<BodySpec> read_bodies(const Section& scene, const std::vector<ShapeSpec>& shapes) {
-  ShapeIndex index;
-  for (const ShapeSpec& shape : shapes) index.emplace(shape.name, static_cast<int>(index.size()));
+  const ShapeIndex index = index_of(shapes);
+  std::unordered_map<std::string, std::size_t> named;
   std::vector<BodySpec> bodies;
   for (const YamlPtr& item : scene.node("bodies").items) {
     const Section body(*item, "bodies[]");
+    if (body.has("name")) {
+      const auto [known, is_new] = named.emplace(body.get(text_value, "name"), bodies.size());
+      if (!is_new)
+        refuse(body.node("name").place, fmt::format("body {} is named {} already; give each its own name",
+                                                    known->second, in_quotes(known->first)));
+    }
     append_bodies(body, read_body(body, index), bodies);
   }
   return bodies;
 }
 
 std::vector<ContactSpec> read_contacts(const Section& scene, const std::vector<BodySpec>& bodies) {
+  std::vector<std::string> names;
+  for (const BodySpec& body : bodies) names.push_back(body.name);
   const auto body_number = [&](const Section& contact, const char* key) {
-    const int number = contact.get(integer_value, key);
-    if (static_cast<std::size_t>(number) < bodies.size()) return number;
-    refuse(contact.node(key).place,
-           fmt::format("there is no body {}; the bodies are numbered 0 to {}", number, bodies.size() - 1));
+    return body_value(contact.node(key), contact.row(key), names);
   };
   std::vector<ContactSpec> contacts;
   for (const YamlPtr& item : scene.node("contacts").items) {
@@ -103,13 +164,7 @@ std::vector<ContactSpec> read_contacts(const Section& scene, const std::vector<B
       refuse(contact.place(), "both bodies of this contact are static; remove it");
     }
     spec.point = contact.get(vector_value, "point");
-    spec.normal = contact.get(vector_value, "normal");
-    constexpr double shortest =
-        1e-9;  // below it, the digits that are left say nothing certain of a direction
-    if (spec.normal.stableNorm() < shortest) {
-      refuse(contact.node("normal").place, "'normal' is zero; write the direction from body a to body b");
-    }
-    spec.normal.stableNormalize();
+    spec.normal = contact.get(direction_value, "normal");
     contacts.push_back(spec);
   }
   return contacts;

@@ -19,6 +19,7 @@ enum class KeyType {
   integers3,   // [nx, ny, nz]
   quaternion,  // [w, x, y, z], not zero
   inertia,     // [Ixx, Iyy, Izz] or [Ixx, Iyy, Izz, Ixy, Ixz, Iyz]
+  body,        // the number of a body, or its name
   points,      // a list of [x, y, z]
   numbers,     // a list of numbers
   matrix,      // a list of rows, each a list of as many numbers

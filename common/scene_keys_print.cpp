@@ -60,6 +60,8 @@ std::string SceneKey::type_text() const {
       return "[w, x, y, z]";
     case KeyType::inertia:
       return "[Ixx, Iyy, Izz] or [Ixx, Iyy, Izz, Ixy, Ixz, Iyz]";
+    case KeyType::body:
+      return "number or name of a body";
     case KeyType::points:
       return "list of [x, y, z]";
     case KeyType::numbers:

@@ -13,6 +13,8 @@ std::filesystem::path resolved_file(const Section& section, const std::string& k
 
 std::vector<ShapeSpec> read_shapes(const Section& scene, const SceneSource& source);
 
+std::vector<PairSpec> read_pairs(const Section& scene, const std::vector<ShapeSpec>& shapes);
+
 // Bodies with their grids expanded.
 std::vector<BodySpec> read_bodies(const Section& scene, const std::vector<ShapeSpec>& shapes);
 

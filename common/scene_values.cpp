@@ -40,6 +40,15 @@ std::string description(const YamlNode& node) {
   return "the text " + in_quotes(node.text);
 }
 
+// Below it, the digits that are left say nothing certain of a direction.
+constexpr double shortest_direction = 1e-9;
+
+bool is_plain_number(const YamlNode& node) {
+  double ignored = 0;
+  return node.kind == YamlNode::Kind::text && !node.is_quoted &&
+         read_number(node.text, ignored) != NumberText::not_a_number;
+}
+
 std::string with_unit(const std::string& what, const SceneKey& key) {
   return key.unit.empty() || key.unit == "1" ? what : what + " in " + key.unit;
 }
@@ -137,13 +146,39 @@ Quat quaternion_value(const YamlNode& node, const SceneKey& key) {
   Eigen::Vector4d wxyz;
   for (std::size_t i = 0; i < 4; ++i) wxyz[static_cast<int>(i)] = number_in(*items[i], key, "four numbers");
   const double length = wxyz.stableNorm();
-  constexpr double shortest = 1e-9;  // below it, the digits that are left say nothing certain of a direction
-  if (length < shortest) {
+  if (length < shortest_direction) {
     refuse(node.place,
            in_quotes(key.last_name()) + " is zero; write a quaternion [w, x, y, z], e.g. [1, 0, 0, 0]");
   }
   if (length != 1) wxyz /= length;
   return {wxyz[0], wxyz[1], wxyz[2], wxyz[3]};
+}
+
+Vec3 direction_value(const YamlNode& node, const SceneKey& key) {
+  const Vec3 value = vector_value(node, key);
+  if (value.stableNorm() < shortest_direction)
+    refuse(node.place, fmt::format("{} is zero; write a direction, e.g. {}: {}", in_quotes(key.last_name()),
+                                   key.last_name(), key.example));
+  return value.stableNormalized();
+}
+
+int body_value(const YamlNode& node, const SceneKey& key, const std::vector<std::string>& names) {
+  check_value(node, key);
+  if (is_plain_number(node)) {
+    const int number = integer_value(node, key);
+    if (static_cast<std::size_t>(number) < names.size()) return number;
+    refuse(node.place,
+           fmt::format("there is no body {}; the bodies are numbered 0 to {}", number, names.size() - 1));
+  }
+  const auto found = std::find(names.begin(), names.end(), node.text);
+  if (found != names.end()) return static_cast<int>(found - names.begin());
+  std::vector<std::string> given;
+  std::copy_if(names.begin(), names.end(), std::back_inserter(given),
+               [](const std::string& name) { return !name.empty(); });
+  refuse(node.place,
+         fmt::format("no body is named {}; {}", in_quotes(node.text),
+                     given.empty() ? "no body here has a name: write its number, or give it a name"
+                                   : "the nearest name is " + in_quotes(nearest(node.text, given))));
 }
 
 Mat3 inertia_value(const YamlNode& node, const SceneKey& key) {
@@ -211,6 +246,9 @@ void check_value(const YamlNode& node, const SceneKey& key) {
       return;
     case KeyType::quaternion:
       quaternion_value(node, key);
+      return;
+    case KeyType::body:
+      is_plain_number(node) ? void(integer_value(node, key)) : void(text_value(node, key));
       return;
     case KeyType::inertia:
       inertia_value(node, key);

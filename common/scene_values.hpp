@@ -21,6 +21,9 @@ double number_value(const YamlNode& node, const SceneKey& key);
 Vec3 vector_value(const YamlNode& node, const SceneKey& key);
 std::array<int, 3> integers_value(const YamlNode& node, const SceneKey& key);
 Quat quaternion_value(const YamlNode& node, const SceneKey& key);  // normalised
+Vec3 direction_value(const YamlNode& node, const SceneKey& key);   // a vector3, made unit; not zero
+// The number of a body that is called by its number or its name. `names`: of all bodies; empty for none.
+int body_value(const YamlNode& node, const SceneKey& key, const std::vector<std::string>& names);
 Mat3 inertia_value(const YamlNode& node, const SceneKey& key);
 std::vector<Vec3> points_value(const YamlNode& node, const SceneKey& key);
 VecX numbers_value(const YamlNode& node, const SceneKey& key);

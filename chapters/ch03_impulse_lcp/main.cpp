@@ -8,6 +8,7 @@
 #include "ch03_impulse_lcp/impact.hpp"
 #include "ch03_impulse_lcp/matrix_market.hpp"
 #include "ch03_impulse_lcp/solver.hpp"
+#include "common/pair_rules.hpp"
 #include "common/program.hpp"
 #include "common/shape.hpp"
 
@@ -167,17 +168,16 @@ void write_contacts(const std::vector<Contact>& contacts, const ImpactResult& im
 }
 
 int run_contacts(const Scene& scene, const RunContext& context, Summary& summary) {
-  // Build the bodies, and the contacts with the larger restitution of each pair.
+  // Build the bodies, and the contacts with the restitution of each pair.
   const std::vector<Shape> shapes = build_shapes(scene, true);
   std::vector<RigidBody> bodies;
-  const auto shape_of = [&](int body) -> const Shape& {
-    return shapes[static_cast<std::size_t>(scene.bodies[static_cast<std::size_t>(body)].shape)];
-  };
+  const PairRules rules(scene);
+  const auto shape_of = [&](int body) { return scene.bodies[static_cast<std::size_t>(body)].shape; };
   for (const BodySpec& spec : scene.bodies)
     bodies.push_back(make_body(shapes[static_cast<std::size_t>(spec.shape)], spec));
   std::vector<Contact> contacts;
   for (const ContactSpec& spec : scene.contacts) {
-    const double restitution = std::max(shape_of(spec.body_a).restitution, shape_of(spec.body_b).restitution);
+    const double restitution = rules.restitution(shapes, shape_of(spec.body_a), shape_of(spec.body_b));
     contacts.push_back({spec.body_a, spec.body_b, spec.point, spec.normal, 0.0, restitution});
   }
 
@@ -238,6 +238,9 @@ std::vector<Effect> explain(const Scene& scene) {
       effects.push_back({"restitution", line(shape.where), "right-hand side (1 + epsilon) v", 0});
       break;
     }
+    if (effects.empty() || effects.back().name != "restitution")
+      if (const auto pairs = scene.mark("pairs"))
+        effects.push_back({"restitution", line(*pairs), "right-hand side (1 + epsilon) v", 0});
   }
   return effects;
 }

@@ -38,7 +38,7 @@ Effects effects_of(const Scene& scene) {
   effects.sleep = scene.sleep;
   effects.gyroscopic = scene.gyroscopic;
   effects.rotation = !all_balls(scene);
-  effects.restitution = scene.restitution.has_value();
+  effects.restitution = scene.restitution.has_value() || !scene.pairs.empty();
   for (const ShapeSpec& shape : scene.shapes) effects.restitution |= shape.restitution.has_value();
   for (const BodySpec& body : scene.bodies) {
     effects.kinematic |= body.is_kinematic;
@@ -82,6 +82,7 @@ std::vector<Effect> explain(const Scene& scene) {
     for (const ShapeSpec& shape : scene.shapes)
       if (shape.restitution && where.empty())
         where = "declared by shape '" + shape.name + "' at " + shape.where.text();
+    if (where.empty()) where = declared(scene, "pairs");
     list.push_back({"restitution", where, "the right-hand side of the LCP", 0});
   }
   if (on.kinematic)

@@ -49,7 +49,7 @@ void refuse_overlap(const World& world, const Scene& scene, int a, int b) {
       scene.bodies[b].where,
       fmt::format("bodies {} and {} overlap at the start ({}), more than the tolerance of {:.3g} m; "
                   "move them apart",
-                  a, b, how, world.tolerance));
+                  scene.body_text(a), scene.body_text(b), how, world.tolerance));
 }
 
 void refuse_overlaps(const World& world, const Scene& scene) {
@@ -247,6 +247,7 @@ World build_world(const Scene& scene) {
   World world;
   world.shapes = build_shapes(scene, true);
   for (const Shape& shape : world.shapes) world.models.push_back(hulls::build_model(shape));
+  world.pair_rules = PairRules(scene);
   world.effects = effects_of(scene);
   world.impact.solver = solver_of(scene.solver);
   world.max_pairs = scene.ccd.max_iterations;

@@ -12,6 +12,7 @@
 #include "ch03_impulse_lcp/impact.hpp"
 #include "ch04_multibody_stepping/effects.hpp"
 #include "ch04_multibody_stepping/schedule.hpp"
+#include "common/pair_rules.hpp"
 #include "common/scene.hpp"
 #include "common/shape.hpp"
 
@@ -52,6 +53,7 @@ struct Sighting {
 struct World {
   std::vector<Shape> shapes;
   std::vector<hulls::Model> models;  // one for each shape
+  PairRules pair_rules;              // what the scene says of two shapes
   std::vector<double> ball_radius;   // m, of each shape that is a ball; else 0
   std::vector<Vec3> half_extents;    // m, of each shape along its own axes, from its centre of mass
   std::vector<ca::PrincipalInertia> principal;  // of each shape; empty without a gyroscopic effect
@@ -72,8 +74,8 @@ struct World {
 
   const hulls::Model& model_of(int body) const { return models[bodies[body].shape]; }
   double keep() const { return std::max(tolerance, reserve); }  // m: see find_next_contact()
-  double restitution_of(int a, int b) const {  // a pair takes the larger of its two shapes' values
-    return std::max(shapes[bodies[a].shape].restitution, shapes[bodies[b].shape].restitution);
+  double restitution_of(int a, int b) const {
+    return pair_rules.restitution(shapes, bodies[a].shape, bodies[b].shape);
   }
   // The body begins a new course: its state, standing at `time` (s in the frame), was set by something other
   // than its own motion.
