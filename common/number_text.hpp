@@ -1,6 +1,7 @@
 // Decimal numbers, read strictly.
 #pragma once
 
+#include <ostream>
 #include <string_view>
 
 namespace fc {
@@ -11,6 +12,10 @@ enum class NumberText {
   too_large,     // a decimal number that no double can hold, or so small that it would vanish
   not_a_number,  // anything else, such as 010 (eight or ten?), 0x10, 1_000, 0,5
 };
+inline std::ostream& operator<<(std::ostream& out, NumberText text) {
+  constexpr const char* kNames[] = {"finite", "not_finite", "too_large", "not_a_number"};
+  return out << kNames[static_cast<int>(text)];
+}
 
 // Reads [sign] digits [. digits] [e [sign] digits] without leading zeros; sets `value` only if the result is
 // `finite`.

@@ -5,6 +5,7 @@
 // own axes, so that a body's pose for collision is (its orientation, its centre of mass).
 #pragma once
 
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,10 @@ struct Shape {
 
   bool convex() const { return kind != Kind::mesh; }
 };
+inline std::ostream& operator<<(std::ostream& out, Shape::Kind kind) {
+  constexpr const char* kNames[] = {"sphere", "capsule", "cylinder", "cone", "box", "hull", "mesh"};
+  return out << kNames[static_cast<int>(kind)];
+}
 
 // Builds one shape. Its mass and centre of mass, in this order:
 //   mass and inertia   as given; the centre is center_of_mass, else the centroid of the solid

@@ -75,7 +75,32 @@ def exercise_faults(root: Path) -> list[str]:
     return faults
 
 
+def nameless_enumerations(root: Path) -> list[str]:
+    """Enumerations of common/ and chapters/ that a test compares and that have no operator<<: a failure would print bytes."""
+    compared = set()
+    for file in (root / "tests").rglob("*.[hc]pp"):
+        for line in re.findall(r"\b(?:EXPECT|ASSERT)_(?:EQ|NE)\(.*?;", file.read_text(encoding="utf-8"), re.S):
+            compared.update(re.findall(r"[(,]\s*(?:[a-z]\w*::)*([A-Z]\w*)::[a-z]\w*\s*[,)]", line))
+    faults = []
+    for header in sorted([*(root / "common").rglob("*.hpp"), *(root / "chapters").rglob("*.hpp")]):
+        text = header.read_text(encoding="utf-8")
+        for name in set(re.findall(r"^enum class (\w+)", text, re.M)) & compared:
+            if not re.search(rf"operator<<\(std::ostream& out, (\w+::)?{name} ", text):
+                faults.append(f"{header.relative_to(root)}: {name}")
+    return faults
+
+
 class StructureTest(unittest.TestCase):
+    def test_whatever_a_test_compares_prints_its_name(self):
+        self.assertEqual(nameless_enumerations(ROOT), [])
+        with tempfile.TemporaryDirectory() as folder:
+            root = Path(folder)
+            for file, text in {"tests/a_test.cpp": "EXPECT_EQ(x,\n          Colour::red) << 1;\nEXPECT_EQ(f(), Limits::max());\n",
+                               "common/a.hpp": "enum class Colour { red };\n", "chapters/c/b.hpp": "enum class Taste { red };\n"}.items():
+                (root / file).parent.mkdir(parents=True, exist_ok=True)
+                (root / file).write_text(text)
+            self.assertEqual(nameless_enumerations(root), ["common/a.hpp: Colour"])
+
     def test_exercises_are_complete(self):
         self.assertEqual(exercise_faults(ROOT), [])
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <ostream>
 
 #include "ch01_convex_advancement/convex.hpp"
 #include "ch01_convex_advancement/motion.hpp"
@@ -36,6 +37,10 @@ struct GjkResult {
   int iterations = 0;
   SimplexCache cache;  // empty if the cores overlap: then there are no witness points either
 };
+inline std::ostream& operator<<(std::ostream& out, GjkResult::Status status) {
+  constexpr const char* kNames[] = {"separated", "overlapping", "limit"};
+  return out << kNames[static_cast<int>(status)];
+}
 
 // The stated rounding term in m: how far a support gap that was computed in double precision can lie above
 // the true one. A support value is n.(R b + p - a): a product of rotations, a rotated vector, two sums and a

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -21,9 +22,15 @@ enum class Status {
   unresolved             // a limit was reached: proved clear until toc, nothing said after it
 };
 const char* name_of(Status status);
+inline std::ostream& operator<<(std::ostream& out, Status status) {
+  return out << name_of(status);
+}
 
 enum class FeatureKind { vertex, edge, face };
 const char* name_of(FeatureKind kind);
+inline std::ostream& operator<<(std::ostream& out, FeatureKind kind) {
+  return out << name_of(kind);
+}
 
 // One pair of features that are in contact, or nearest to it.
 struct FeaturePair {

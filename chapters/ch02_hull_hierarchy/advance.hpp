@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <ostream>
 #include <vector>
 
 #include "ch01_convex_advancement/query.hpp"
@@ -32,6 +33,10 @@ struct Reach {
   std::int64_t leaf_pairs = 0;  // pairs of leaves whose distance was computed
   std::int64_t advances = 0;    // steps that were proved
 };
+inline std::ostream& operator<<(std::ostream& out, Reach::Status status) {
+  constexpr const char* kNames[] = {"reached", "clear", "limit"};
+  return out << kNames[static_cast<int>(status)];
+}
 
 // One pair of nodes in the queue.
 struct Waiting {

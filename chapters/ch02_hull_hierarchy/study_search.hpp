@@ -1,6 +1,7 @@
 // Hierarchical advancement, one idea at a time: the ancestors' searches and ours, on one hierarchy.
 #pragma once
 
+#include <ostream>
 #include <vector>
 
 #include "ch02_hull_hierarchy/advance.hpp"
@@ -22,7 +23,13 @@ enum class Bound {
   points         // the same, and at the leaves each point's own velocity (points_step): ours
 };
 const char* name_of(Order order);
+inline std::ostream& operator<<(std::ostream& out, Order order) {
+  return out << name_of(order);
+}
 const char* name_of(Bound bound);
+inline std::ostream& operator<<(std::ostream& out, Bound bound) {
+  return out << name_of(bound);
+}
 
 // What became of a pair of nodes when it was looked at.
 enum class Fate {
@@ -32,6 +39,9 @@ enum class Fate {
   reached    // two leaves in contact
 };
 const char* name_of(Fate fate);
+inline std::ostream& operator<<(std::ostream& out, Fate fate) {
+  return out << name_of(fate);
+}
 struct Visit {
   double time;   // s, of the pose at which the pair was looked at
   double step;   // s, for which it was then proved clear

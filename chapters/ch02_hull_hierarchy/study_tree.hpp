@@ -1,6 +1,7 @@
 // The hierarchy of hulls with other volumes, other leaves, or fewer points: what the study compares.
 #pragma once
 
+#include <ostream>
 #include <string>
 
 #include "ch02_hull_hierarchy/hull_model.hpp"
@@ -16,7 +17,13 @@ enum class Volume {
 };
 enum class Leaves { pieces, triangles };
 const char* name_of(Volume volume);
+inline std::ostream& operator<<(std::ostream& out, Volume volume) {
+  return out << name_of(volume);
+}
 const char* name_of(Leaves leaves);
+inline std::ostream& operator<<(std::ostream& out, Leaves leaves) {
+  return out << name_of(leaves);
+}
 
 struct StudyTreeOptions {
   Volume volume = Volume::hull;

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <limits>
+#include <ostream>
 
 #include "common/types.hpp"
 
@@ -23,6 +24,9 @@ enum class Status {
 
 // "solved", "no_solution", "ray", "limit", "unsuited": the words of solvers.csv.
 const char* name(Status status);
+inline std::ostream& operator<<(std::ostream& out, Status status) {
+  return out << name(status);
+}
 
 // A problem as a solver takes it. It holds references: both must outlive the solve. Bounds are for friction
 // and joints, and ordinary contacts do without: where they are given, lower <= z <= upper takes the place of

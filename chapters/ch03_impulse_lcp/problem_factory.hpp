@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <ostream>
 #include <string_view>
 
 #include "ch03_impulse_lcp/problem.hpp"
@@ -71,6 +72,9 @@ inline constexpr auto kFamilies = [] {
 
 // The words above.
 std::string_view name(Family family);
+inline std::ostream& operator<<(std::ostream& out, Family family) {
+  return out << name(family);
+}
 
 // A problem and all that is known of it. It owns what lcp() refers to.
 struct KnownProblem {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <ostream>
 #include <string_view>
 
 #include "ch03_impulse_lcp/problem.hpp"
@@ -21,6 +22,9 @@ inline constexpr std::array<Method, 4> kMethods = {Method::dantzig, Method::lemk
 
 // The words of `solver.method` and of solvers.csv: "dantzig", "lemke", "pgs", "interior_point".
 std::string_view name(Method method);
+inline std::ostream& operator<<(std::ostream& out, Method method) {
+  return out << name(method);
+}
 // The method of that name. Throws std::invalid_argument for another word.
 Method method_named(std::string_view name);
 

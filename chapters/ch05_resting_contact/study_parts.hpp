@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <ostream>
 #include <vector>
 
 #include "ch05_resting_contact/resting.hpp"
@@ -43,6 +44,9 @@ double zeno_time();
 
 enum class Method { events, envelope, moreau };
 const char* name(Method method);
+inline std::ostream& operator<<(std::ostream& out, Method method) {
+  return out << name(method);
+}
 
 // A scene, and how it is run.
 struct Setting {

@@ -18,12 +18,15 @@ struct Door {
   std::vector<Vec3> corners;  // m, world, at s = 0; the door is their convex hull
 };
 
-// An upper bound, in m/s, of n . (velocity of any point of the door) at any time from t until end (s, t <=
-// end).
+// An upper bound, in m/s, of n . (velocity of any point of the door) at any time from t until end (s, 0 <= t
+// <= end).
 //   n: unit, world; it does not move.
+// No point exceeds it, not by the last digit either: what the computation may have rounded down is added. By
+// that the bound may grow, but by no more than 1e-12 of (|spin| + |spin_up| end) times the distance from
+// `hinge` to the corner farthest from it.
 // It may depend on how far the corners are from the hinge's line, not on where they are just now: they will
 // turn. No smaller bound of this kind holds: if the door turns far enough, one of its corners comes as near
-// to the bound as you like (for a constant spin). Not negative.
+// to the bound as you like (for a constant spin, but for rounding). Not negative.
 double door_speed_bound(const Door& door, const Vec3& n, double t, double end);
 
 }  // namespace fc::exercises

@@ -24,7 +24,9 @@ struct Answer {
 };
 
 // The first contact of the rod with the floor in [0, interval] (s), by conservative advancement.
-//   tolerance: m, > 0. `contact` means: at toc the gap is positive and at most the tolerance.
+//   tolerance: m, > 0, and not so small that the rounding of a gap counts: at least 1e-13 of
+//     height + half_length (1 + |tilt| + |spin| interval) + |climb| interval.
+//   `contact` means: at toc the gap is positive and at most the tolerance.
 //   most: the largest number of advances; if they do not suffice, the answer is `unresolved`.
 // Guarantee: before toc the rod does not touch the floor. The rod starts above the floor, farther than the
 // tolerance.

@@ -16,7 +16,7 @@ struct Rounded {
 };
 
 // The point (world, m) of the body, its ball included, that lies farthest along `direction` (world, any
-// length but 0).
+// length but 0), up to rounding.
 Vec3 support(const Rounded& body, const Vec3& direction);
 
 // The same for the Minkowski difference B - A = { b - a : b in B, a in A }: a body of its own, which contains
@@ -27,7 +27,9 @@ Vec3 difference_support(const Rounded& a, const Rounded& b, const Vec3& directio
 Vec3 swept_support(const Rounded& a, const Rounded& b, const Vec3& travel, const Vec3& direction);
 
 // The gap (m) along n (unit, world, from A to B) that is left during all of that flight, as far as n can
-// tell: negative if the slab closes. If it is > 0, A and B never meet on the way.
+// tell: negative if the slab closes. If it is > 0, A and B never meet on the way, and that is to be trusted:
+// rounding may make it smaller than the exact one, by at most 1e-12 of how far the points of both bodies are
+// from the origin, and never larger.
 double gap_on_the_way(const Rounded& a, const Rounded& b, const Vec3& travel, const Vec3& n);
 
 }  // namespace fc::exercises

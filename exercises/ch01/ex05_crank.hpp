@@ -20,11 +20,13 @@ double gap(const Crank& crank, double t);  // m; given
 
 // For how many seconds h after t the gap certainly stays at or above `target` (m): for all of them, not only
 // at the end. Infinity if it does for ever, that is, if the pin never comes so high or does not move. The gap
-// at t is above the target.
+// at t is above the target. (A gap is what gap() says: some 1e-15 of clearance + arm (1 + |angle| + |spin| t)
+// from the exact one, and so is what may be missing from the target.)
 //
 // At least as long as both  (gap - target) / (arm |spin|)  and the time in which
 //   gap - c h - k h^2,   c the closing speed at t,   k = arm spin^2 / 2,
-// comes down to the target; and exact to 12 digits of that, however small the room (gap - target) is.
+// comes down to the target; and exact to 12 digits of that, however small the room (gap - target) is, and
+// however slowly the pin turns. (Of c with the angle at t that a double has.)
 double safe_step(const Crank& crank, double t, double target);
 
 }  // namespace fc::exercises

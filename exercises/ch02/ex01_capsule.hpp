@@ -31,11 +31,13 @@ inline double gap(const Capsule& a, const Capsule& b, const Vec3& n, double h) {
 
 // The smallest number of m/s, of those that do not depend on how the bodies are turned about their spins just
 // now, that the gap along a fixed n never shrinks faster than, at any later time. Negative if the two part
-// for ever. (It counts on both bodies being fastest at the same time: one day they may be.)
+// for ever. (It counts on both bodies being fastest at the same time: one day they may be.) Rounding is
+// included: it is never below the truth, and above it by no more than 1e-12 of the speeds involved.
 double closing_speed(const Capsule& a, const Capsule& b, const Vec3& n);
 
 // For how many seconds from now the gap along n certainly shrinks by no more than `room` (m, > 0): at all
-// times until then, not only at the end. May be infinite. At least as long as both
+// times until then, not only at the end, and with rounding included. May be infinite. Where the world's
+// origin is does not matter. At least as long, up to 1e-12 of it, as both
 //   room / closing_speed (for ever, if that is not positive),
 //   the time in which no pair of an end of A and an end of B uses up its room. A pair's room is `room` and by
 //   how much the two are farther apart along n than the gap says; it begins with its own closing speed, of

@@ -19,7 +19,9 @@ struct FirstContact {
 // The first contact of two bodies in [0, interval] (s), by one global step after another: at each time both
 // hierarchies are gone through, from their roots down, for the longest step that is safe for all pairs of
 // leaves.
-//   tolerance: m, > 0. `contact` means: at toc the gap is positive and at most the tolerance.
+//   tolerance: m, > 0, and not so small that rounding counts: at least 1e-12 of how far the bodies come from
+//     the origin and from their first places. `contact` means: at toc the gap is positive and at most the
+//     tolerance.
 //   most: the largest number of steps; if they do not suffice, the answer is `unresolved`.
 // Guarantee: before toc the bodies do not touch. They start farther apart than the tolerance. What cannot
 // make the step shorter is not opened, and of two nodes that may be opened it is the larger one that is.

@@ -34,7 +34,7 @@ class Products {
 double largest_eigenvalue(Products& A, int products);
 
 // Impulses z >= 0 that nearly solve w = A z + b, z >= 0, w >= 0, z'w = 0, by projected gradients with
-// momentum. An impact of n balls in a row, for n up to 100, is solved to within 1e-6 max|b| after 500
+// momentum. An impact of n balls in a row, for n up to 100, is solved to within 1e-6 max|b| after 1000
 // products, in the sense that |min(A_ii z_i, w_i)| is no larger for any row.
 //   b: n, m/s.   largest: 1/kg, > 0, up to 2 % below the largest eigenvalue.
 //   products: the largest number of products with A that may be spent, >= 1.

@@ -20,7 +20,8 @@ struct Sequence {
 
 // Resolves an impact as a chain of hits. A hit serves one contact that approaches, as if it were alone, with
 // the velocities that all hits before it have left: an impulse j along its normal, at its point, after which
-// its velocity is -epsilon times what it was just before that hit. Static bodies do not change.
+// its velocity is -epsilon times what it was just before that hit. Bodies of infinite mass do not change, and
+// a contact of two of them is passed over, as if it did not approach: no impulse serves it.
 //   slowest: m/s, > 0: a contact counts as approaching if its velocity is < -slowest.
 //   most: the largest number of hits, >= 0.
 // `solved`: no contact approaches any more. `limit`: some still do after `most` hits; the bodies then have

@@ -28,7 +28,8 @@ struct Scrape {
 //   is opposite to impulse_t, or 0.
 // (So friction is bounded along each tangent for itself: a pyramid in place of Coulomb's cone.) If the normal
 // impulse changes v_t, and friction changes v_n, the two must be found together. `found`: they were; it is so
-// for mu up to 0.5 and bodies that are not needles. If they were not, the body is left as it was.
+// for mu up to 0.5 and a solid box that is hit anywhere on its surface. If they were not, the body is left as
+// it was.
 Scrape scrape(RigidBody& body, const Touch& touch);
 
 }  // namespace fc::exercises

@@ -22,7 +22,9 @@ struct BallState {
 
 // The ball at time t (s, >= 0), in closed form: the cost does not grow with the number of bounces. For
 // heights and speeds of the order of one and up to 10^5 bounces the height is exact to 1e-9 m; also in the
-// last instants before the ball comes to rest there is an answer, and bounces are never taken back. With
+// last instants before the ball comes to rest there is an answer, and bounces are never taken back. The first
+// touch comes when it should to 1e-12 of its time, however hard the ball is thrown. Bounces are counted up to
+// 10^18, and remain that; of the height nothing is left then. With
 // restitution 0 the ball is at rest from its first touch on (that is no infinity: but -1 all the same); with
 // 1 it never is. A ball that starts on the floor and not upwards is at rest at once, unless it is thrown down
 // and bounces.

@@ -17,8 +17,9 @@ struct Bounce {
   Vec2 place = Vec2::Zero();  // m, on the wall
 };
 
-// When and where a point that flies from `place` (m, inside or on the wall) with `velocity` (m/s, not zero)
-// next meets the wall. A place is on the wall if x^2/a^2 + y^2/b^2 is 1 up to rounding (1e-15), or more
+// When and where a point that flies from `place` (m, inside or on the wall) with `velocity` (m/s, not zero,
+// but perhaps next to nothing) next meets the wall. A place is on the wall if x^2/a^2 + y^2/b^2 is 1 up to
+// rounding (2e-15), or more
 // than 1. A start on the wall that leads inwards finds the other end of its chord, however short or long, and
 // never the start again; one that leads outwards, or along the wall within rounding, is at the wall now: time
 // 0. The place fulfils the wall's equation to 1e-15 or so, however many bounces came before.

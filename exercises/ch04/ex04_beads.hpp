@@ -20,7 +20,7 @@ struct BeadsResult {
 
 // Lets the beads, given from left to right, fly for `duration` (s, >= 0): constant velocities, and elastic
 // collisions of neighbours, one after the other as they come. Afterwards every bead has its place and
-// velocity at that time. Guarantees: beads never change their order (by more than rounding); every collision
+// velocity at that time. (A collision just at the end is left to the next flight.) Guarantees: beads never change their order (by more than rounding); every collision
 // happens, and none twice; energy and momentum stay; at most one event for each pair of neighbours at the
 // start, and three for each collision, so that the cost of a collision does not grow with the number of
 // beads.

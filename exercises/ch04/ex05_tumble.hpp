@@ -7,7 +7,8 @@ namespace fc::exercises {
 
 // A body on which no torque acts, in its principal axes.
 struct Tumbler {
-  Vec3 moments = Vec3::Ones();       // kg m^2, about the centre of mass
+  Vec3 moments = Vec3::Ones();       // kg m^2, about the centre of mass, > 0; none larger than the sum of the
+                                     //   other two, or than 100 times another (a thinner body is a needle)
   Mat3 rotation = Mat3::Identity();  // principal axes to world axes
   Vec3 momentum = Vec3::Zero();      // kg m^2/s, the angular momentum in principal axes: moments times spin
 };
@@ -18,7 +19,7 @@ struct Tumbler {
 // to rounding, and turns the body by wm so that the angular momentum in the world, rotation * momentum, stays
 // as it is. Guarantees: |L|, the kinetic energy and the angular momentum in the world stay to rounding; the
 // error of the orientation at a fixed time falls as h^2; a step back undoes a step. Returns how often the
-// right-hand side was evaluated, at most 60.
+// right-hand side was evaluated, at most 40: when only rounding changes, it is over.
 int step(Tumbler& body, double h);
 
 }  // namespace fc::exercises

@@ -28,7 +28,8 @@ struct Steering {
 // first gap means nothing, y_0 = 0, and d_0 is free.
 //
 // Exact up to rounding: displacements to 1e-12 of the sum of all |r|, pushes to that times the mass of all.
-// The cost grows like the number of boxes, up to 10^5 of them. `gravity`: m/s^2, >= 0, downwards. The energy
+// Both for up to 10^5 boxes: sums of so many
+// numbers want more digits than a double has. The cost grows like the number of boxes. `gravity`: m/s^2, >= 0, downwards. The energy
 // is never negative, and zero in the air.
 Steering steer(std::span<const Box> boxes, bool floor, double width, double share, double gravity);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace fc::exercises {
 
@@ -10,12 +11,20 @@ namespace fc::exercises {
 // from the hinge's line, which no turn about that line changes. |w| is largest at one of the ends, w being
 // linear in time.
 double door_speed_bound(const Door& door, const Vec3& n, double t, double end) {
-  double across = 0;
-  for (const Vec3& corner : door.corners)
-    across = std::max(across, (corner - door.hinge).cross(door.axis).norm());
+  double across = 0, far = 0;
+  for (const Vec3& corner : door.corners) {
+    const Vec3 r = corner - door.hinge;
+    across = std::max(across, r.cross(door.axis).norm());
+    far = std::max(far, r.norm());
+  }
   const double fastest =
       std::max(std::abs(door.spin + door.spin_up * t), std::abs(door.spin + door.spin_up * end));
-  return fastest * n.cross(door.axis).norm() * across;
+
+  // Each of the three factors comes out of differences, in which rounding is a part of what was subtracted,
+  // not of what is left.
+  constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();
+  return (fastest + kRounding * (std::abs(door.spin) + std::abs(door.spin_up) * end)) *
+         (n.cross(door.axis).norm() + kRounding) * (across + kRounding * far);
 }
 
 }  // namespace fc::exercises

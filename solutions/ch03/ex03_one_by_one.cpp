@@ -14,6 +14,10 @@ void push(RigidBody& body, const Vec3& point, const Vec3& impulse) {
   body.spin += body.inverse_inertia_world() * (point - body.position).cross(impulse);
 }
 
+bool can_move(const RigidBody& body) {
+  return body.inverse_mass > 0;
+}
+
 void hit(RigidBody& a, RigidBody& b, const lcp::Contact& contact, double v) {
   const double j = -(1 + contact.restitution) * v / (response(a, contact) + response(b, contact));
   push(a, contact.point, -j * contact.normal);
@@ -26,8 +30,12 @@ Sequence resolve_one_by_one(std::span<RigidBody> bodies, std::span<const lcp::Co
                             Choice choice, double slowest, int most) {
   Sequence sequence;
   const int n = static_cast<int>(contacts.size());
+  // m/s, negative: approaching. What no impulse changes does not count.
   const auto velocity = [&](int i) {
-    return lcp::contact_velocity(bodies, contacts[static_cast<std::size_t>(i)]);
+    const lcp::Contact& c = contacts[static_cast<std::size_t>(i)];
+    const bool served = can_move(bodies[static_cast<std::size_t>(c.body_a)]) ||
+                        can_move(bodies[static_cast<std::size_t>(c.body_b)]);
+    return served ? lcp::contact_velocity(bodies, c) : 0;
   };
 
   int next = 0;  // where the search begins

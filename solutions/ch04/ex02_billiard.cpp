@@ -13,8 +13,10 @@ constexpr double kOnWall = 8 * std::numeric_limits<double>::epsilon();  // of x^
 
 Bounce next_bounce(const Ellipse& wall, const Vec2& place, const Vec2& velocity) {
   // In units of the half axes the wall is the unit circle: |p + t u|^2 = 1.
-  const Vec2 half(wall.a, wall.b);
-  const Vec2 p = place.cwiseQuotient(half), u = velocity.cwiseQuotient(half);
+  // The time is counted in 1/fastest, or the square of a small velocity would be 0.
+  const Vec2 half(wall.a, wall.b), per_second = velocity.cwiseQuotient(half);
+  const double fastest = per_second.cwiseAbs().maxCoeff();
+  const Vec2 p = place.cwiseQuotient(half), u = per_second / fastest;
   const double uu = u.squaredNorm(), pu = p.dot(u);
   const double inside = 1 - p.squaredNorm();
   // uu t^2 + 2 pu t - inside = 0. On the wall, where only rounding is left of `inside`, one root is the
@@ -26,7 +28,7 @@ Bounce next_bounce(const Ellipse& wall, const Vec2& place, const Vec2& velocity)
     time = pu < 0 ? (root - pu) / uu : inside / (root + pu);
   }
   const Vec2 q = p + time * u;
-  return {time, q.normalized().cwiseProduct(half)};
+  return {time / fastest, q.normalized().cwiseProduct(half)};
 }
 
 Vec2 reflect(const Ellipse& wall, const Vec2& place, const Vec2& velocity) {

@@ -5,13 +5,17 @@
 namespace fc::exercises {
 namespace {
 
+// In sums of 10^5 numbers rounding grows with their count: a double would keep 11 digits for sure. These have
+// 64 bits instead of 53, and the answer 12 digits.
+using Sum = long double;
+
 // Neighbours that push each other and move as one: all have the same x.
 struct Block {
-  double mass = 0;    // kg
-  double moment = 0;  // kg m, sum of m_i (-R_i)
+  Sum mass = 0;    // kg
+  Sum moment = 0;  // kg m, sum of m_i (-R_i)
   std::size_t count = 0;
 
-  double x() const { return moment / mass; }  // m, where the sum of m_i (x + R_i)^2 is smallest
+  Sum x() const { return moment / mass; }  // m, where the sum of m_i (x + R_i)^2 is smallest
 };
 
 }  // namespace
@@ -20,11 +24,11 @@ struct Block {
 // least 0 for the first one. Of such x, the nearest to -R: blocks are pooled while one is before another that
 // wants less.
 Steering steer(std::span<const Box> boxes, bool floor, double width, double share, double gravity) {
-  std::vector<double> sums;  // R, m
+  std::vector<Sum> sums;  // R, m
   std::vector<Block> blocks;
-  double sum = 0;
+  Sum sum = 0;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
-    const double lacks = 0.5 * width - boxes[i].gap;
+    const Sum lacks = 0.5L * width - boxes[i].gap;
     if (i > 0 || floor) sum += lacks > 0 ? share * lacks : lacks;
     sums.push_back(sum);
     blocks.push_back({boxes[i].mass, -boxes[i].mass * sum, 1});
@@ -38,20 +42,20 @@ Steering steer(std::span<const Box> boxes, bool floor, double width, double shar
   }
 
   // What wants to be below 0 stops there: it is on the floor, one block with it.
-  std::vector<double> x;
+  std::vector<Sum> x;
   for (const Block& block : blocks)
-    x.insert(x.end(), block.count, floor ? std::max(0.0, block.x()) : block.x());
+    x.insert(x.end(), block.count, floor ? std::max(Sum(0), block.x()) : block.x());
 
   Steering result;
-  for (std::size_t i = 0; i < x.size(); ++i) result.displaced.push_back(x[i] + sums[i]);
+  for (std::size_t i = 0; i < x.size(); ++i) result.displaced.push_back(static_cast<double>(x[i] + sums[i]));
   result.pushes.assign(x.size(), 0);
-  double above = 0;  // kg m
+  Sum above = 0;  // kg m
   for (std::size_t i = x.size(); i-- > 0;) {
     const bool pushes = i > 0 ? x[i] == x[i - 1] : floor && x[i] == 0;
-    above = pushes ? std::max(0.0, above + boxes[i].mass * result.displaced[i]) : 0;
-    result.pushes[i] = above;
+    above = pushes ? std::max(Sum(0), above + boxes[i].mass * (x[i] + sums[i])) : 0;
+    result.pushes[i] = static_cast<double>(above);
   }
-  result.energy = gravity * above;  // the sum of all m_i d_i: what the lowest row pushes
+  result.energy = static_cast<double>(gravity * above);  // the sum of all m_i d_i: what the lowest row pushes
   return result;
 }
 

@@ -67,7 +67,8 @@ TEST(Ex01Door, IsTheSameWhereverOnItsLineTheHingeIs) {
   door.hinge += 50 * door.axis;
   const double there = door_speed_bound(door, Vec3::UnitY(), 0, 1);
   EXPECT_NEAR(here, there, 1e-12) << "m/s: two points of one hinge describe the same motion";
-  EXPECT_NEAR(there, 2, 1e-12) << "m/s";
+  EXPECT_NEAR(there, 2, 1e-12)
+      << "m/s: 2 rad/s, 1 m from the hinge's line; how high on it `hinge` is does not matter";
 }
 
 TEST(Ex01Door, SeesASpinThatGrows) {
@@ -91,6 +92,41 @@ TEST(Ex01Door, ForgetsWhatIsOver) {
   const double bound = door_speed_bound(front_door(6, -2), Vec3::UnitY(), 2, 3);
   EXPECT_NEAR(bound, 2, 1e-12) << "from t = 2 s on the door turns with at most 2 rad/s; got " << bound
                                << " m/s: the bound is asked for the rest of the interval only";
+}
+
+// In long double, with hinges far along the line and normals nearly along it, where differences have few digits.
+TEST(Ex01Door, NoPointExceedsItByTheLastDigitEither) {
+  using Long = long double;
+  using Long3 = Eigen::Matrix<Long, 3, 1>;
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> u(-1, 1);
+  const auto vec = [&] { return Vec3(u(random), u(random), u(random)); };
+  for (int trial = 0; trial < 2000; ++trial) {
+    const Vec3 axis = vec().normalized();
+    Door door{3 * vec(), axis, 4 * u(random), trial % 2 == 0 ? 0 : 6 * u(random), {}};
+    for (int k = 0; k < 4; ++k) door.corners.push_back(door.hinge + vec());
+    if (trial % 4 >= 2) door.hinge += 1000 * u(random) * axis;
+    const Vec3 n = trial % 3 == 0 ? Vec3((axis + 1e-6 * vec()).normalized()) : Vec3(vec().normalized());
+    const double t = u(random) + 1, end = t + u(random) + 1;
+
+    const Long3 long_axis = axis.cast<Long>();
+    Long across = 0, far = 0;
+    for (const Vec3& corner : door.corners) {
+      const Long3 r = corner.cast<Long>() - door.hinge.cast<Long>();
+      across = std::max(across, r.cross(long_axis).norm() / long_axis.norm());
+      far = std::max(far, r.norm());
+    }
+    const Long spin = std::max(std::abs(door.spin + Long(door.spin_up) * t),
+                               std::abs(door.spin + Long(door.spin_up) * end));
+    const Long truth = spin * n.cast<Long>().cross(long_axis).norm() * across;
+    const Long excess = door_speed_bound(door, n, t, end) - truth;
+    ASSERT_GE(excess, 0)
+        << "m/s: by so much the bound is below " << truth << " m/s, a speed that a corner comes to if the "
+        << "door turns far enough. Every operation may round down; a bound makes up for that";
+    ASSERT_LE(excess, 1e-12L * (std::abs(door.spin) + std::abs(door.spin_up) * Long(end)) * far)
+        << "m/s: by so much the bound is above " << truth
+        << " m/s: safe, but rounding does not ask for that much";
+  }
 }
 
 }  // namespace

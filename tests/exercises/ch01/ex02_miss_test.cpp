@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -45,7 +46,7 @@ TEST(Ex02Miss, SeesARodThatFallsFlat) {
 TEST(Ex02Miss, SeesTheEndThatIsRisingNow) {
   const Rod rod{1, 0.8, 0.05, 0.1, -4};  // its middle climbs; its lower end is the one that rises, at first
   const double contact = true_contact(rod, 2);
-  ASSERT_GT(contact, 0);
+  ASSERT_GT(contact, 0) << "s: of the test itself, whose rod has to hit the floor";
   const Answer answer = first_contact(rod, 2, 1e-6, 1000);
   ASSERT_EQ(status_of(answer), "contact")
       << says(answer) << ", but at " << contact << " s an end that was rising has swung down to the floor";
@@ -65,7 +66,9 @@ TEST(Ex02Miss, IsNeverLate) {
           << says(answer) << ", but the rod hits the floor at " << contact << " s";
       ASSERT_LE(answer.toc, contact + 1e-15) << "s: the contact is reported after it happened";
     } else {
-      ASSERT_NE(status_of(answer), "unresolved") << says(answer) << " after 100,000 advances";
+      ASSERT_NE(status_of(answer), "unresolved")
+          << says(answer)
+          << " after 100,000 advances, but no part of the rod is ever near the floor: a few thousand prove that";
     }
     for (const double t : answer.visited)
       ASSERT_TRUE(contact < 0 || t <= contact + 1e-15)
@@ -77,9 +80,12 @@ TEST(Ex02Miss, StopsWithinATightTolerance) {
   for (const double tolerance : {1e-3, 1e-6, 1e-9, 1e-12}) {
     const Rod rod{0.5, 1, -0.7, 0.3, 1.5};
     const Answer answer = first_contact(rod, 3, tolerance, 100000);
-    ASSERT_EQ(status_of(answer), "contact") << says(answer) << " with a tolerance of " << tolerance << " m";
-    EXPECT_GT(gap_at(rod, answer.toc), 0) << "m: the gap at toc, with a tolerance of " << tolerance << " m";
-    EXPECT_LE(gap_at(rod, answer.toc), tolerance) << "m: the gap at toc";
+    ASSERT_EQ(status_of(answer), "contact")
+        << says(answer) << " with a tolerance of " << tolerance << " m, but the rod falls onto the floor";
+    EXPECT_GT(gap_at(rod, answer.toc), 0) << "m: the gap at toc, with a tolerance of " << tolerance
+                                          << " m: the rod must not be in the floor yet";
+    EXPECT_LE(gap_at(rod, answer.toc), tolerance)
+        << "m: the gap at toc; `contact` means that no more is left";
   }
 }
 
@@ -90,7 +96,46 @@ TEST(Ex02Miss, SaysThatALimitWasReached) {
       << says(answer)
       << ", but five advances prove only that the rod is clear for a while; `separated` would be a lie";
   EXPECT_GT(answer.toc, 0) << "s: until then the rod is clear";
-  EXPECT_LE(answer.toc, true_contact(rod, 10)) << "s";
+  EXPECT_LE(answer.toc, true_contact(rod, 10)) << "s: nothing is proved beyond the contact";
+}
+
+TEST(Ex02Miss, TellsWhereItLooked) {
+  for (const Rod& rod : {Rod{0.5, 1, -0.7, 0.3, 1.5}, Rod{1, 3, -0.5, 0, 20}, Rod{1, 2, 0.1, 0.4, 0.1}}) {
+    const Answer answer = first_contact(rod, 3, 1e-6, 30);
+    const std::vector<double>& visited = answer.visited;
+    ASSERT_FALSE(visited.empty())
+        << "`visited` names each time at which the advancement looked; the plot is made of them";
+    EXPECT_EQ(visited.front(), 0) << "s: it looks at the start first";
+    EXPECT_TRUE(std::is_sorted(visited.begin(), visited.end())) << "s: it never goes back";
+    EXPECT_LE(visited.size(), 31U) << "looks: one before each of 30 advances, and one after the last";
+    if (status_of(answer) == "contact") {
+      EXPECT_EQ(visited.back(), answer.toc) << "s: the contact is where it looked last";
+    }
+    for (const double t : visited)
+      EXPECT_LE(t, answer.toc) << "s: it looked beyond the time until which anything is proved; "
+                               << says(answer);
+  }
+}
+
+// At the smallest tolerance that the contract allows; the gap in long double.
+TEST(Ex02Miss, IsAsTightAsItMayBeAsked) {
+  std::mt19937_64 random(8);
+  std::uniform_real_distribution<double> u(0, 1);
+  for (int trial = 0; trial < 100; ++trial) {
+    const double interval = 3;
+    const Rod rod{0.2 + u(random), 1.5 + 10 * u(random), -5 - u(random), 6 * u(random), 12 * u(random) - 6};
+    const double size = rod.height +
+                        rod.half_length * (1 + std::abs(rod.tilt) + std::abs(rod.spin) * interval) +
+                        std::abs(rod.climb) * interval;
+    const Answer answer = first_contact(rod, interval, 1e-13 * size, 100000);
+    ASSERT_EQ(status_of(answer), "contact")
+        << says(answer) << ", with a tolerance of " << 1e-13 * size << " m";
+    const long double t = answer.toc;
+    const long double gap =
+        rod.height + rod.climb * t - rod.half_length * std::abs(std::sin(rod.tilt + rod.spin * t));
+    ASSERT_GT(gap, 0) << "m: at toc the rod is in the floor, if only by rounding: aim at half the tolerance";
+    ASSERT_LE(gap, 1e-13L * size) << "m: the gap at toc";
+  }
 }
 
 }  // namespace

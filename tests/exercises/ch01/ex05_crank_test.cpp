@@ -82,7 +82,8 @@ TEST(Ex05Crank, AsLongAsTheParabolaAllows) {
     const Crank q = any.crank();
     const double now = gap(q, 0);
     if (now <= 0) continue;
-    EXPECT_GE(safe_step(q, 0, now / 2), parabola(q, 0, now / 2) * (1 - 1e-12)) << "s";
+    EXPECT_GE(safe_step(q, 0, now / 2), parabola(q, 0, now / 2) * (1 - 1e-12))
+        << "s: gap - c h - k h^2 allows a longer step; is your c the closing speed of now, with its sign?";
   }
 }
 
@@ -110,21 +111,38 @@ TEST(Ex05Crank, DoublesTheDigits) {
 
 TEST(Ex05Crank, GrazingIsNoTrouble) {
   // The pin touches the ceiling at the top of its circle, or misses it by a hair.
-  EXPECT_LE(advances({1, 1, -1, 1}, 1e-10), 60);
+  EXPECT_LE(advances({1, 1, -1, 1}, 1e-10), 60)
+      << "advances to a touch at the top, where the pin hardly closes in any more: the linear step needs ten thousand";
   EXPECT_LE(advances({1, 1 + 1e-3, -1, 1}, 1e-6), 1) << "it never comes so high: one look tells";
 }
 
 TEST(Ex05Crank, ForEverIsInfinity) {
-  EXPECT_TRUE(std::isinf(safe_step({1, 2, 0.3, 0}, 0, 0.1))) << "it does not turn";
-  EXPECT_TRUE(std::isinf(safe_step({1, 2, 0.3, -7}, 0, 0.99))) << "1 m is left even at the top";
-  EXPECT_TRUE(std::isfinite(safe_step({1, 2, 0.3, -7}, 0, 1.01))) << "but not 1.01 m";
+  EXPECT_TRUE(std::isinf(safe_step({1, 2, 0.3, 0}, 0, 0.1)))
+      << "s: it does not turn, so its gap stays as it is for ever";
+  EXPECT_TRUE(std::isinf(safe_step({1, 2, 0.3, -7}, 0, 0.99)))
+      << "s: 1 m is left even at the top of the circle, more than the target";
+  EXPECT_TRUE(std::isfinite(safe_step({1, 2, 0.3, -7}, 0, 1.01)))
+      << "s: but not 1.01 m: the pin will be nearer";
+}
+
+TEST(Ex05Crank, ASlowPinTurnsAllTheSame) {
+  const Crank q{1, 0.9, 3, 1};  // on its way down
+  for (const double slower : {1e-6, 1e-150, 1e-170, 1e-300}) {
+    const Crank slow{q.arm, q.clearance, q.angle, q.spin * slower};
+    EXPECT_NEAR(safe_step(slow, 0, 0.4) * slower / safe_step(q, 0, 0.4), 1, 1e-12)
+        << "of the step it should be: a pin that turns " << slower
+        << " times as fast takes as much longer, and not for "
+        << "ever; the square of its spin may be 0";
+  }
 }
 
 TEST(Ex05Crank, TurnsEitherWay) {
   const Crank q{1, 0.5, 1 - std::numbers::pi, -1};  // the mirror image of DoublesTheDigits
-  EXPECT_EQ(advances(q, 1e-9), advances({1, 0.5, -std::numbers::pi - (1 - std::numbers::pi), 1}, 1e-9));
+  EXPECT_EQ(advances(q, 1e-9), advances({1, 0.5, -std::numbers::pi - (1 - std::numbers::pi), 1}, 1e-9))
+      << "advances of a pin that turns the other way, and of its mirror image";
   const Crank away{1, 0.9, 0, -1};
-  EXPECT_GE(safe_step(away, 0, 0.4), 1 + std::sqrt(2.0) - 1e-12) << "s: it turns downwards";
+  EXPECT_GE(safe_step(away, 0, 0.4), 1 + std::sqrt(2.0) - 1e-12)
+      << "s: with this spin it turns downwards, and comes back no sooner than 1 + sqrt(2) s later";
 }
 
 }  // namespace

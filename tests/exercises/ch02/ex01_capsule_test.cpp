@@ -106,7 +106,7 @@ TEST(Ex01Capsule, TheRadiusCostsNothing) {
   EXPECT_NEAR(bound, 1, 1e-12)
       << "a ball that flies with 1 m/s closes in with 1 m/s, however fast it spins; got " << bound << " m/s";
   const double step = safe_step(ball, wall(), Vec3::UnitX(), 3);
-  EXPECT_NEAR(step, 3, 1e-12) << "s for 3 m at 1 m/s";
+  EXPECT_NEAR(step, 3, 1e-12) << "s: 3 m at 1 m/s; that it spins takes nothing off";
 }
 
 TEST(Ex01Capsule, SeesTheOtherBodyFromItsSide) {
@@ -137,7 +137,7 @@ TEST(Ex01Capsule, AStepIsNeverTooLong) {
     const Capsule a = any.capsule(), b = any.capsule();
     const Vec3 n = any.vector(1).normalized();
     const double room = std::pow(10, any.number(-6, 0.5)), step = safe_step(a, b, n, room);
-    ASSERT_GE(step, 0) << "s";
+    ASSERT_GE(step, 0) << "s: a step leads forwards";
     const double until = std::min(step, 5.0), now = gap(a, b, n, 0);
     for (int k = 1; k <= 200; ++k) {
       const double lost = now - gap(a, b, n, until * k / 200);
@@ -183,6 +183,54 @@ TEST(Ex01Capsule, DoublesTheDigits) {
   EXPECT_LE(many, 40) << "advances until the gap is 1e-12 m";
   EXPECT_LE(many, few + 4)
       << "advances: nine more digits are three or four more, for the speed of now is exact";
+}
+
+// In long double: the largest speeds are known, and of what does not spin the step.
+TEST(Ex01Capsule, BoundsHoldToTheLastDigit) {
+  using Long = long double;
+  using Long3 = Eigen::Matrix<Long, 3, 1>;
+  Any any;
+  for (int trial = 0; trial < 2000; ++trial) {
+    Capsule a = any.capsule(), b = any.capsule();
+    const Vec3 n = trial % 3 == 0 ? Vec3((a.spin + 1e-6 * any.vector(1)).normalized())
+                                  : Vec3(any.vector(1).normalized());
+    const Long3 long_n = n.cast<Long>();
+    const auto turning = [&](const Capsule& c) {
+      const Long3 spin = c.spin.cast<Long>();
+      const Long reach =
+          std::max(c.p.cast<Long>().cross(spin).norm(), c.q.cast<Long>().cross(spin).norm()) / spin.norm();
+      return long_n.cross(spin).norm() * reach;
+    };
+    const Long3 velocity = a.velocity.cast<Long>() - b.velocity.cast<Long>();
+    const Long excess = closing_speed(a, b, n) - (long_n.dot(velocity) + turning(a) + turning(b));
+    ASSERT_GE(excess, 0)
+        << "m/s: so much the bound is too small, by rounding; then \"they part for ever\" may be a lie";
+    ASSERT_LE(excess, 1e-12L * (velocity.norm() + 2 * (a.spin.norm() + b.spin.norm())))
+        << "m/s: so much the bound is too large; rounding does not ask for that";
+
+    a.spin = b.spin = Vec3::Zero();
+    const double room = std::pow(10, any.number(-9, 1)), step = safe_step(a, b, n, room);
+    if (std::isinf(step)) continue;
+    ASSERT_LE(long_n.dot(velocity) * step, Long(room))
+        << "m: after a step of " << step << " s the gap has shrunk by this, more than by " << room
+        << " m, if only by rounding";
+  }
+}
+
+TEST(Ex01Capsule, ItDoesNotMatterWhereTheOriginIs) {
+  Any any;
+  for (int trial = 0; trial < 200; ++trial) {
+    Capsule a = any.capsule(), b = any.capsule();
+    const Vec3 n = any.vector(1).normalized(), shift = any.vector(1e8);
+    const double room = std::pow(10, any.number(-9, -3)), here = safe_step(a, b, n, room);
+    a.middle += shift;
+    b.middle += shift;
+    const double there = safe_step(a, b, n, room);
+    if (std::isinf(here)) continue;
+    ASSERT_NEAR(there / here, 1, 1e-12)
+        << "of the step of " << here << " s, for bodies that are " << shift.norm()
+        << " m from the origin: differences of such places have 8 digits left";
+  }
 }
 
 }  // namespace

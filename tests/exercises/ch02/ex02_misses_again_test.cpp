@@ -100,7 +100,7 @@ std::string says(const FirstContact& answer) {
 TEST(Ex02MissesAgain, SeesTheFarPairThatIsFast) {
   const Two two = arm();
   const double contact = two.true_contact(1);
-  ASSERT_GT(contact, 0);
+  ASSERT_GT(contact, 0) << "s: of the test itself, whose arm has to hit";
   const FirstContact answer = two.ask(1);
   ASSERT_EQ(status_of(answer), "contact")
       << says(answer) << ", but at " << contact << " s the arm's tip hits: it is far away at first, and fast";
@@ -112,7 +112,8 @@ TEST(Ex02MissesAgain, ContactMeansWithinTheTolerance) {
           cubes({{0, 0, 0}, {0, 1.5, 0.3}}, 1), motion({5, 0, 0}, {0, 0, 0}, {0.2, 0, 0})};
   for (const double tolerance : {1e-2, 1e-4, 1e-7, 1e-10}) {
     const FirstContact answer = two.ask(3, tolerance);
-    ASSERT_EQ(status_of(answer), "contact") << says(answer) << " with a tolerance of " << tolerance << " m";
+    ASSERT_EQ(status_of(answer), "contact")
+        << says(answer) << " with a tolerance of " << tolerance << " m, but A flies into B";
     const double gap = two.gap_at(answer.toc);
     EXPECT_GT(gap, 0) << "m: the gap at toc, with a tolerance of " << tolerance << " m";
     EXPECT_LE(gap, tolerance) << "m: the gap at toc; a short step alone is no contact";
@@ -123,7 +124,7 @@ TEST(Ex02MissesAgain, ABulletIsNotThereYet) {
   Two two{cubes({{0, 0, 0}}, 0.01), motion({0, 0, 0}, {900, 0, 0}, {0, 0, 20000}), cubes({{0, 0, 0}}, 1),
           motion({20, 0, 0}, {0, 0, 0}, {0, 0, 0})};
   const FirstContact answer = two.ask(1);
-  ASSERT_EQ(status_of(answer), "contact") << says(answer);
+  ASSERT_EQ(status_of(answer), "contact") << says(answer) << ", but the bullet flies straight at the cube";
   EXPECT_LE(two.gap_at(answer.toc), kTolerance)
       << "m: at 900 m/s, 1e-5 s are 9 mm: a step that is short in time may be long in space";
 }
@@ -152,7 +153,8 @@ TEST(Ex02MissesAgain, IsNeverLate) {
                   motion(vec(6), vec(3), vec(4))};
     if (two.gap_at(0) < 0.01) continue;
     const FirstContact answer = two.ask(1);
-    ASSERT_NE(status_of(answer), "unresolved") << says(answer) << " after 10,000 steps";
+    ASSERT_NE(status_of(answer), "unresolved")
+        << says(answer) << " after 10,000 steps: some hundreds decide it; are the steps longer than nothing?";
     contacts += answer.status == fc::ca::Status::contact;
     for (int k = 0; k <= 300; ++k) {
       const double t = answer.toc * k / 300;
@@ -168,7 +170,7 @@ TEST(Ex02MissesAgain, HullsThatOverlapAreNoContact) {
   const Two two{cubes({{-2, 0, 0}, {2, 0, 0}}, 1), motion({0, 0, 0}, {0, 0, 0}, {0, 0, 0}),
                 cubes({{0, 0, 0}}, 1), motion({0, 0, 0}, {0.5, 0, 0}, {0, 0, 0})};
   const FirstContact answer = two.ask(5);
-  ASSERT_EQ(status_of(answer), "contact") << says(answer);
+  ASSERT_EQ(status_of(answer), "contact") << says(answer) << ", but the two do meet";
   EXPECT_NEAR(answer.toc, 2, 3 * kTolerance) << "s: 1 m at 0.5 m/s; a hull that is not a leaf's is no body";
 }
 
@@ -178,10 +180,10 @@ TEST(Ex02MissesAgain, StopsBeforeTheyTouch) {
     const Two two{cubes({{0, 0, 0}, {0, 3, 0}}, 1), motion({0, 0, 0}, {speed, 0, 0}, {0, 0, 0}),
                   cubes({{0, 0, 0}, {0, 3, 0}}, 1), motion({2, 0, 0}, {0, 0, 0}, {0, 0, 0})};
     const FirstContact answer = two.ask(5);
-    ASSERT_EQ(status_of(answer), "contact") << says(answer);
+    ASSERT_EQ(status_of(answer), "contact") << says(answer) << ", but the two do meet";
     const double gap = two.gap_at(answer.toc);
     EXPECT_GT(gap, 0) << "m: the gap at toc, at " << speed << " m/s: whoever aims at contact gets there";
-    EXPECT_LE(gap, kTolerance) << "m: the gap at toc";
+    EXPECT_LE(gap, kTolerance) << "m: the gap at toc; `contact` means that no more is left";
   }
 }
 
@@ -189,7 +191,7 @@ TEST(Ex02MissesAgain, OpensTheLargerNode) {
   const Two two{cubes(grid(4), 1), motion({0, 0, 0}, {0, 0, 0}, {0, 0, 0}), cubes(grid(0.2), 0.1),
                 motion({0, 2, 20}, {0, 0, -3}, {0, 0, 1})};
   const FirstContact answer = two.ask(8);
-  ASSERT_NE(status_of(answer), "unresolved") << says(answer);
+  ASSERT_NE(status_of(answer), "unresolved") << says(answer) << ", but 10,000 steps are more than enough";
   const double each = static_cast<double>(answer.node_pairs) / static_cast<double>(answer.visited.size());
   EXPECT_LE(each, 60)
       << "pairs of nodes per step: a node of A, 12 m wide, stays too large for B, 0.7 m wide, "
@@ -200,7 +202,7 @@ TEST(Ex02MissesAgain, OpensOnlyWhatCouldShortenTheStep) {
   const Two two{cubes(grid(2), 1), motion({0, 0, 0}, {0, 0, 0}, {0.3, 0, 0.1}), cubes(grid(2), 1),
                 motion({11, 1, 0}, {-3, 0, 0}, {0, 0.2, 0.3})};
   const FirstContact answer = two.ask(4);
-  ASSERT_EQ(status_of(answer), "contact") << says(answer);
+  ASSERT_EQ(status_of(answer), "contact") << says(answer) << ", but the two do meet";
   const double each = static_cast<double>(answer.node_pairs) / static_cast<double>(answer.visited.size());
   EXPECT_LE(each, 120) << "pairs of nodes per step, of 64 times 64 pairs of cubes";
 }

@@ -88,7 +88,8 @@ TEST(Ex03OwnTime, FindsTheFirstContact) {
 TEST(Ex03OwnTime, LooksAtNothingBeyondTheContact) {
   Tree tree(meetings(256, 1));
   const Found found = first_contact(tree.pairs(), 10, 100000);
-  ASSERT_EQ(found.status, fc::ca::Status::contact) << says(found);
+  ASSERT_EQ(found.status, fc::ca::Status::contact)
+      << says(found) << ", but some leaves do meet within the interval";
   const double last = *std::max_element(tree.visited.begin(), tree.visited.end());
   EXPECT_LE(last, tree.first[0]) << "s: the first contact is at " << tree.first[0]
                                  << " s, but a pair was looked at "
@@ -101,14 +102,15 @@ TEST(Ex03OwnTime, SkipsNothingThatIsNotProved) {
     const Found found = first_contact(tree.pairs(), 10, 100000);
     ASSERT_LE(tree.too_late, 0) << "s were passed over without a proof: " << says(found)
                                 << "; there a contact would be missed";
-    ASSERT_GT(tree.total(), 1) << "looks";
+    ASSERT_GT(tree.total(), 1) << "looks: the root alone tells nothing of 64 leaves";
   }
 }
 
 TEST(Ex03OwnTime, ForgetsNothingThatIsProved) {
   Tree tree(meetings(64, 3));
   const Found found = first_contact(tree.pairs(), 10, 100000);
-  ASSERT_EQ(found.status, fc::ca::Status::contact) << says(found);
+  ASSERT_EQ(found.status, fc::ca::Status::contact)
+      << says(found) << ", but some leaves do meet within the interval";
   EXPECT_LE(tree.too_early, 0)
       << "s that were proved clear were looked through again: a pair inherits the proof "
       << "of the pair it came from, and keeps its own";
@@ -117,7 +119,8 @@ TEST(Ex03OwnTime, ForgetsNothingThatIsProved) {
 TEST(Ex03OwnTime, ANodeIsLookedAtOnce) {
   Tree tree(meetings(256, 4));
   const Found found = first_contact(tree.pairs(), 10, 100000);
-  ASSERT_EQ(found.status, fc::ca::Status::contact) << says(found);
+  ASSERT_EQ(found.status, fc::ca::Status::contact)
+      << says(found) << ", but some leaves do meet within the interval";
   for (int k = 0; !tree.leaf(k); ++k)
     ASSERT_LE(tree.looks[k], 1) << "looks at pair " << k << ", which was opened";
 }
@@ -128,7 +131,8 @@ TEST(Ex03OwnTime, LooksAtFewPairs) {
   for (int k = static_cast<int>(tree.first.size()) - 1; k > 0; k = (k - 1) / 2)
     tree.first[(k - 1) / 2] = std::min(tree.first[(k - 1) / 2], tree.first[k]);
   const Found found = first_contact(tree.pairs(), 10, 100000);
-  ASSERT_EQ(found.status, fc::ca::Status::contact) << says(found);
+  ASSERT_EQ(found.status, fc::ca::Status::contact)
+      << says(found) << ", but some leaves do meet within the interval";
   EXPECT_LE(tree.total(), 60)
       << "looks, with 8191 pairs: a way down of 12 nodes, the leaf's own looks, and the few "
       << "that might have been earlier";
@@ -138,7 +142,7 @@ TEST(Ex03OwnTime, ALeafGoesOnFromWhereItIs) {
   Tree tree({2.0});  // one pair of leaves: chapter 1
   const Found found = first_contact(tree.pairs(), 10, 1000);
   ASSERT_EQ(found.status, fc::ca::Status::contact) << says(found) << ", but the only pair meets at 2 s";
-  EXPECT_NEAR(found.time, 2, 2 * kNear) << "s";
+  EXPECT_NEAR(found.time, 2, 2 * kNear) << "s: the only pair of leaves meets then";
   EXPECT_EQ(tree.total(), 15) << "looks: each leaves a fifth of the time, until 1e-9 s are left";
 }
 
@@ -146,7 +150,8 @@ TEST(Ex03OwnTime, TheFirstLeafOnTopNeedNotBeIt) {
   Tree tree({5.0, 4.0});
   tree.leaf_share = 0.1;  // leaves that learn little in a look
   const Found found = first_contact(tree.pairs(), 10, 100000);
-  ASSERT_EQ(found.status, fc::ca::Status::contact) << says(found);
+  ASSERT_EQ(found.status, fc::ca::Status::contact)
+      << says(found) << ", but some leaves do meet within the interval";
   EXPECT_NEAR(found.time, 4, 2 * kNear)
       << "s: a pair of leaves on top is a contact only if it has reached its target";
 }
@@ -164,7 +169,7 @@ TEST(Ex03OwnTime, WhatIsBeyondTheIntervalIsGone) {
 TEST(Ex03OwnTime, ForEverIsFinite) {
   Tree tree(std::vector<double>(64, kNever));
   const Found found = first_contact(tree.pairs(), kNever, 1000);
-  EXPECT_EQ(found.status, fc::ca::Status::separated) << says(found);
+  EXPECT_EQ(found.status, fc::ca::Status::separated) << says(found) << ", but no pair ever meets";
   EXPECT_EQ(tree.total(), 1) << "looks: the root is clear for ever, and so is all below it";
 }
 
@@ -174,11 +179,19 @@ TEST(Ex03OwnTime, SaysThatALimitWasReached) {
     const Found found = first_contact(tree.pairs(), 10, most);
     ASSERT_EQ(found.status, fc::ca::Status::unresolved)
         << says(found) << ", but " << most << " looks prove only that all is clear for a while";
-    EXPECT_EQ(tree.total(), most) << "looks";
+    EXPECT_EQ(tree.total(), most) << "looks: all that were allowed, and no more";
     EXPECT_GT(found.time, 0) << "s: one look at the root is a proof";
     EXPECT_LE(found.time, tree.first[0]) << "s: nothing was proved beyond the contact";
     EXPECT_GE(found.time, tree.visited.back()) << "s: the queue's top was later than this already";
   }
+}
+
+TEST(Ex03OwnTime, AnIntervalOfNothingNeedsNoLook) {
+  Tree tree(meetings(8, 9));
+  const Found found = first_contact(tree.pairs(), 0, 1000);
+  EXPECT_EQ(found.status, fc::ca::Status::separated) << says(found) << ", but nothing meets before 0 s";
+  EXPECT_EQ(found.time, 0) << "s: clear for the whole interval, which is none";
+  EXPECT_EQ(tree.total(), 0) << "looks: also the root's time lies at the interval's end";
 }
 
 }  // namespace

@@ -177,11 +177,13 @@ TEST(Ex04Box, FlatThinAndSingle) {
   const auto check = [](const Points& points, double most, const char* what) {
     const Box box = fit_box(points);
     EXPECT_TRUE(box.center.allFinite() && box.axes.allFinite() && box.half.allFinite())
-        << what << ": not finite";
-    EXPECT_GE(box.half.minCoeff(), 0) << "m, " << what;
+        << what << ": a number of the box is infinite or NaN; is something divided by a size of 0?";
+    EXPECT_GE(box.half.minCoeff(), 0) << "m, " << what << ": a box has no negative half side";
     EXPECT_NEAR(box.axes.determinant(), 1, 1e-5) << what << ": the axes are a frame all the same";
-    EXPECT_LE(surface(box), most) << "m^2, " << what;
-    for (const Vec3& p : points) EXPECT_LE(outside(box, p), 1e-12 * p.norm()) << "m, " << what;
+    EXPECT_LE(surface(box), most) << "m^2, " << what << ": it needs no more, however it lies";
+    for (const Vec3& p : points)
+      EXPECT_LE(outside(box, p), 1e-12 * p.norm())
+          << "m, " << what << ": a point is so far outside of its box";
   };
   check(square, 4.01, "a square");
   check(line, 0.01, "a line");

@@ -33,7 +33,7 @@ std::string words(const Mat2& A, const Vec2& b) {
 }
 std::string words(const Answers& answers) {
   std::ostringstream out;
-  out << answers.size() << " answers:";
+  out << answers.size() << (answers.size() == 1 ? " answer:" : " answers:");
   for (const Answer& a : answers) out << " z = (" << a.z.transpose() << ")";
   return out.str();
 }
@@ -132,7 +132,7 @@ TEST(Ex01TwoContacts, PMatricesHaveOneAnswer) {
           << ") m/s; a contact pushes, or it opens, and never pulls";
     }
   }
-  ASSERT_GT(cases, 10000);
+  ASSERT_GT(cases, 10000) << "cases, of the test itself";
 }
 
 TEST(Ex01TwoContacts, AgreesWithTheChapterOnEverySemidefiniteMatrix) {
@@ -157,7 +157,7 @@ TEST(Ex01TwoContacts, AgreesWithTheChapterOnEverySemidefiniteMatrix) {
             << "): the velocities after an impact are unique, whatever the impulses are";
     }
   }
-  ASSERT_GT(without, 100);
+  ASSERT_GT(without, 100) << "problems without a solution, of the test itself";
 }
 
 // Two walls that open at 120 degrees: their normals are 60 degrees apart, and pushes help each other.

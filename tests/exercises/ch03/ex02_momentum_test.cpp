@@ -123,12 +123,13 @@ TEST(Ex02Momentum, TheLargestEigenvalueOfAJumble) {
     const double got = largest(scene);
     ASSERT_GE(got, 0.98 * truth) << "1/kg: expected " << truth << " (" << scene.contacts.size()
                                  << " contacts)";
-    ASSERT_LE(got, truth * (1 + 1e-12)) << "1/kg: more than there is";
+    ASSERT_LE(got, truth * (1 + 1e-12))
+        << "1/kg: more than the largest eigenvalue, which no z'Az / z'z can be";
   }
 }
 
 TEST(Ex02Momentum, TheLargestEigenvalueOfNothing) {
-  EXPECT_EQ(largest({}), 0) << "1/kg: no contacts";
+  EXPECT_EQ(largest({}), 0) << "1/kg: without contacts there is no eigenvalue, and 0 is asked for";
   const Scene walls{{{}, {}}, {{0, 1, Vec3::Zero(), Vec3::UnitX(), 0, 0}}};
   EXPECT_EQ(largest(walls), 0) << "1/kg: two walls; no impulse moves them (0/0 is no answer)";
 }

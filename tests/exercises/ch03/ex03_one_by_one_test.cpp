@@ -79,7 +79,7 @@ TEST(Ex03OneByOne, ABallOnAWall) {
   Scene scene = row({3, 0}, 0.5);
   scene.bodies[1] = RigidBody{};  // static
   const Sequence got = scene.resolve(Choice::in_turn);
-  EXPECT_EQ(got.status, Status::solved) << "a single hit settles it";
+  EXPECT_EQ(got.status, Status::solved) << "solved: after a single hit nothing approaches";
   EXPECT_EQ(got.hits, 1) << "hits: a single one settles it";
   expect_speeds(scene, {-1.5, 0}, kRounding,
                 "restitution 1/2 sends it back with half its speed; the wall stays");
@@ -147,14 +147,15 @@ TEST(Ex03OneByOne, TheOrderDecidesABreakShot) {
   for (const bool left_first : {false, true}) {
     Scene scene = break_shot(0, left_first);
     const Sequence got = scene.resolve(Choice::in_turn);
-    EXPECT_EQ(got.hits, 2) << "hits: one on each ball";
+    EXPECT_EQ(got.hits, 2) << "hits: the cue ball meets each ball once";
     EXPECT_NEAR(scene.bodies[left_first ? 2 : 1].velocity.norm(), first, kRounding)
         << "m/s, the ball whose contact stands first in the list: it gets the cue ball's full blow";
     EXPECT_NEAR(scene.bodies[left_first ? 1 : 2].velocity.norm(), second, kRounding)
         << "m/s, the other ball: the scene is symmetric, the answer is not";
   }
   Scene together = break_shot(0, false);
-  ASSERT_EQ(fc::lcp::resolve_impact(together.bodies, together.contacts).status, Status::solved);
+  ASSERT_EQ(fc::lcp::resolve_impact(together.bodies, together.contacts).status, Status::solved)
+      << "the chapter's solver, for comparison";
   EXPECT_NEAR(together.bodies[1].velocity.norm(), together.bodies[2].velocity.norm(), kRounding)
       << "m/s: at once, both get the same";
 }
@@ -193,7 +194,7 @@ TEST(Ex03OneByOne, ACornerOfABox) {
   scene.bodies[1].velocity = {0, 0, -2};
   scene.bodies[1].set_mass(fc::box_mass({1, 1, 1}, 1));
   scene.contacts = {{0, 1, {0.5, 0.5, 0}, Vec3::UnitZ(), 0, 0.5}};
-  EXPECT_EQ(scene.resolve(Choice::in_turn).hits, 1) << "hits";
+  EXPECT_EQ(scene.resolve(Choice::in_turn).hits, 1) << "hits: a single contact is served once";
   // a = 1/m + |r x n|^2 / I = 1 + (1/2) 6 = 4 /kg, j = 1.5 * 2 / 4 N s.
   EXPECT_NEAR(scene.bodies[1].velocity.z(), -1.25, kRounding)
       << "m/s, the centre: a blow at a corner is soft (3/4 N s), because the cube turns away";
@@ -211,7 +212,7 @@ TEST(Ex03OneByOne, WithoutRestitutionItNeverEnds) {
   expect_speeds(scene, {1. / 3, 1. / 3, 1. / 3}, 1e-6, "all go on together");
   scene = row({1, 0, 0}, 0);
   const Sequence short_one = scene.resolve(Choice::in_turn, 1e-6, 10);
-  EXPECT_EQ(short_one.hits, 10) << "hits: that was the limit";
+  EXPECT_EQ(short_one.hits, 10) << "hits: no more than ten were allowed";
   EXPECT_EQ(short_one.status, Status::limit) << "contacts still approach at 1e-3 m/s; that is not solved";
   scene = row({1, 0, 0}, 0);
   EXPECT_EQ(scene.resolve(Choice::in_turn, 1e-6, 20).status, Status::solved)
@@ -222,10 +223,24 @@ TEST(Ex03OneByOne, WhatSeparatesIsNotPulledBack) {
   Scene scene = row({-1, 0, 2});
   const Sequence got = scene.resolve(Choice::fastest);
   EXPECT_EQ(got.hits, 0) << "hits: everything separates";
-  EXPECT_EQ(got.status, Status::solved) << "nothing approaches";
-  EXPECT_EQ(scene.speeds(), (Speeds{-1, 0, 2})) << "m/s: nobody was touched";
+  EXPECT_EQ(got.status, Status::solved) << "solved: nothing approaches, from the start";
+  EXPECT_EQ(scene.speeds(), (Speeds{-1, 0, 2})) << "m/s: what separates is left alone";
   scene.contacts.clear();
   EXPECT_EQ(scene.resolve(Choice::in_turn).status, Status::solved) << "no contacts, nothing to do";
+}
+
+// A lift that comes down on a floor; and beside them a ball on the floor.
+TEST(Ex03OneByOne, WhatCannotMoveIsPassedOver) {
+  for (const Choice choice : {Choice::in_turn, Choice::fastest}) {
+    Scene scene = row({5, 0, -1});
+    scene.bodies[0] = scene.bodies[1] = RigidBody{};
+    scene.bodies[0].velocity = {5, 0, 0};
+    const Sequence got = scene.resolve(choice);
+    EXPECT_EQ(got.status, Status::solved) << "solved: all that impulses can do was done";
+    EXPECT_EQ(got.hits, 1) << "hits: the ball's; no impulse stops what has an infinite mass";
+    expect_speeds(scene, {5, 0, 1}, kRounding,
+                  "the lift goes on, and the ball comes back; 1/0 kg is no mass");
+  }
 }
 
 TEST(Ex03OneByOne, MixedRestitutionsGainNoEnergy) {
@@ -234,8 +249,9 @@ TEST(Ex03OneByOne, MixedRestitutionsGainNoEnergy) {
   together = scene;
   EXPECT_EQ(scene.resolve(Choice::in_turn).hits, 2) << "hits: the right contact, and then the left one";
   expect_speeds(scene, {-0.5, -0.5, 1}, kRounding, "swap on the right, then the left pair goes on together");
-  EXPECT_NEAR(scene.energy(), 0.75, kRounding) << "J, of 1 J before";
-  ASSERT_EQ(fc::lcp::resolve_impact(together.bodies, together.contacts).status, Status::solved);
+  EXPECT_NEAR(scene.energy(), 0.75, kRounding) << "J, of 1 J before: each hit takes energy, or none";
+  ASSERT_EQ(fc::lcp::resolve_impact(together.bodies, together.contacts).status, Status::solved)
+      << "the chapter's solver, for comparison";
   EXPECT_GT(together.energy(), 1.3) << "J: at once, the same impact makes 4/3 J out of 1 J";
 }
 

@@ -51,7 +51,7 @@ TEST(Ex04LostSolutions, ThreeBallsInARow) {
   const MatX A{{2, -1}, {-1, 2}};
   const VecX b{{-2, 0}};
   const Driven got = drive_all(A, b, kPlenty);
-  ASSERT_EQ(got.status, Status::solved) << words(A, b, got);
+  ASSERT_EQ(got.status, Status::solved) << words(A, b, got) << "the chapter's example, which has a solution";
   EXPECT_NEAR(got.z[0], 4. / 3, 1e-14) << "N s: the chapter's example by hand";
   EXPECT_NEAR(got.z[1], 2. / 3, 1e-14) << "N s: the chapter's example by hand";
   EXPECT_EQ(got.pivots, 2) << "pivots: each row enters once";
@@ -106,17 +106,18 @@ TEST(Ex04LostSolutions, TheLimitIsNoSolution) {
     const Driven got = drive_all(A, b, most);
     EXPECT_EQ(got.status, Status::limit) << "six rows take six pivots, and " << most << " were allowed; rows "
                                          << "that still approach are neither solved nor impossible";
-    EXPECT_LE(got.pivots, most) << "pivots";
+    EXPECT_LE(got.pivots, most) << "pivots: more than were allowed";
   }
-  EXPECT_EQ(drive_all(A, b, 6).status, Status::solved) << "six rows, six pivots";
+  EXPECT_EQ(drive_all(A, b, 6).status, Status::solved)
+      << "solved: six rows take six pivots, and six were allowed";
 }
 
 TEST(Ex04LostSolutions, NothingToDo) {
   const Driven got = drive_all(MatX{{0, 0}, {0, 1}}, VecX{{0, 3}}, 0);
-  EXPECT_EQ(got.status, Status::solved) << "nothing approaches";
-  EXPECT_EQ(got.z.size(), 2) << "an impulse for each row";
+  EXPECT_EQ(got.status, Status::solved) << "solved: nothing approaches, from the start";
+  EXPECT_EQ(got.z.size(), 2) << "impulses: one for each row, also where all are 0";
   EXPECT_EQ(got.z.norm(), 0) << "N s: no push without an approach";
-  EXPECT_EQ(drive_all(MatX(0, 0), VecX(0), 0).status, Status::solved) << "no rows at all";
+  EXPECT_EQ(drive_all(MatX(0, 0), VecX(0), 0).status, Status::solved) << "solved: there are no rows at all";
 }
 
 // Every symmetric G'G with whole G of few columns, and every active set: no solution is missed, none
@@ -155,8 +156,8 @@ TEST(Ex04LostSolutions, SmallWholeNumbersWithTiesEverywhere) {
       expect_no_solution(A, b, "no active set solves it");
     if (HasFatalFailure()) return;
   }
-  ASSERT_GT(with, 500);
-  ASSERT_GT(without, 500);
+  ASSERT_GT(with, 500) << "problems with a solution, of the test itself";
+  ASSERT_GT(without, 500) << "problems without a solution, of the test itself";
 }
 
 TEST(Ex04LostSolutions, TheChaptersFamilies) {

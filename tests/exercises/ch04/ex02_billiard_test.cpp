@@ -25,12 +25,12 @@ double wall_error(const Ellipse& wall, const Vec2& x) {
 TEST(Ex02Billiard, StraightAcross) {
   const Ellipse wall{2, 1};
   const Bounce b = next_bounce(wall, {0, 0}, {4, 0});
-  EXPECT_NEAR(b.time, 0.5, 1e-15) << "s: 2 m at 4 m/s";
-  EXPECT_NEAR((b.place - Vec2(2, 0)).norm(), 0, 1e-15) << "m";
+  EXPECT_NEAR(b.time, 0.5, 1e-15) << "s: 2 m from the middle to the wall, at 4 m/s";
+  EXPECT_NEAR((b.place - Vec2(2, 0)).norm(), 0, 1e-15) << "m, from the end of the long axis, (2, 0)";
   const Bounce back = next_bounce(wall, b.place, {-4, 0});
   EXPECT_NEAR(back.time, 1, 1e-15)
       << "s: the whole axis, 4 m at 4 m/s; the bounce just left is not the next one";
-  EXPECT_NEAR((back.place + Vec2(2, 0)).norm(), 0, 1e-15) << "m";
+  EXPECT_NEAR((back.place + Vec2(2, 0)).norm(), 0, 1e-15) << "m, from the axis' other end, (-2, 0)";
 }
 
 TEST(Ex02Billiard, ReflectsAtTheWallsNormal) {
@@ -39,9 +39,10 @@ TEST(Ex02Billiard, ReflectsAtTheWallsNormal) {
   const Vec2 along = Vec2(-2 * std::sin(1.0), std::cos(1.0)).normalized(), velocity(0.7, 1.9);
   const Vec2 after = reflect(wall, place, velocity);
   EXPECT_NEAR(after.norm(), velocity.norm(), 1e-14) << "m/s: an elastic bounce keeps the speed";
-  EXPECT_NEAR(after.dot(along), velocity.dot(along), 1e-14) << "m/s along the wall";
+  EXPECT_NEAR(after.dot(along), velocity.dot(along), 1e-14) << "m/s along the wall: that part stays as it is";
   const Vec2 across(along.y(), -along.x());
-  EXPECT_NEAR(after.dot(across), -velocity.dot(across), 1e-14) << "m/s across the wall";
+  EXPECT_NEAR(after.dot(across), -velocity.dot(across), 1e-14)
+      << "m/s across the wall: that part is reversed";
 }
 
 // A circle: every chord is as long as the first, and takes the same time.
@@ -52,7 +53,7 @@ TEST(Ex02Billiard, ACircleHasEqualChords) {
   EXPECT_NEAR(chord, 2 * 3 / std::sqrt(5.0) / std::sqrt(5.0), 1e-14) << "s: 2 r cos(angle) / speed";
   for (int i = 0; i < 1000; ++i) {
     const Bounce b = next_bounce(wall, x, v);
-    ASSERT_NEAR(b.time, chord, 1e-11) << "s, chord " << i;
+    ASSERT_NEAR(b.time, chord, 1e-11) << "s, chord " << i << ": in a circle all are as long as the first";
     x = b.place;
     v = reflect(wall, x, v);
   }
@@ -73,10 +74,12 @@ TEST(Ex02Billiard, TheFociKeepTheirProduct) {
       ASSERT_GT(b.time, 0) << "s: bounce " << i << " found the place it came from";
       x = b.place;
       v = reflect(wall, x, v);
-      ASSERT_LE(wall_error(wall, x), 1e-14) << "bounce " << i << " is off the wall";
-      ASSERT_NEAR(product(), start, 1e-9) << "m^4/s^2 after bounce " << i;
+      ASSERT_LE(wall_error(wall, x), 1e-14)
+          << "of x^2/a^2 + y^2/b^2 less 1: bounce " << i << " is off the wall";
+      ASSERT_NEAR(product(), start, 1e-9)
+          << "m^4/s^2 after bounce " << i << ": the angular momenta about the two foci keep their product";
     }
-    EXPECT_NEAR(v.norm(), 1, 1e-10) << "m/s";
+    EXPECT_NEAR(v.norm(), 1, 1e-10) << "m/s: elastic bounces keep the speed";
   }
 }
 
@@ -118,7 +121,8 @@ TEST(Ex02Billiard, GrazingRaysFromTheWall) {
       ASSERT_NEAR(b.time, 1, 1e-12 + 4e-15 / angle)
           << "s: the chord from " << place.transpose() << " m at " << angle
           << " rad to the wall; the place on the wall is taken for one off it";
-      ASSERT_LE(wall_error(wall, b.place), 1e-14) << "the bounce is off the wall";
+      ASSERT_LE(wall_error(wall, b.place), 1e-14)
+          << "of x^2/a^2 + y^2/b^2 less 1: the bounce is off the wall";
     }
   }
 }
@@ -138,7 +142,24 @@ TEST(Ex02Billiard, WhispersForTenThousandBounces) {
 TEST(Ex02Billiard, OutwardsFromTheWallIsNow) {
   const Ellipse wall{2, 1};
   EXPECT_NEAR(next_bounce(wall, {2, 0}, {1, 0.3}).time, 0, 1e-15) << "s: it is at the wall, and goes into it";
-  EXPECT_NEAR(next_bounce(wall, {0, -1}, {0.2, -3}).time, 0, 1e-15) << "s";
+  EXPECT_NEAR(next_bounce(wall, {0, -1}, {0.2, -3}).time, 0, 1e-15)
+      << "s: it is at the wall, and goes into it";
+}
+
+TEST(Ex02Billiard, HoweverSlowOrFast) {
+  const Ellipse wall{2, 1.2};
+  const Vec2 inside(0.3, -0.4), on(0, 1.2), velocity(0.7, -1.1);
+  for (const Vec2& place : {inside, on}) {
+    const Bounce usual = next_bounce(wall, place, velocity);
+    for (const double factor : {1e-300, 1e-170, 1e-9, 1e9, 1e170, 1e300}) {
+      const Bounce b = next_bounce(wall, place, factor * velocity);
+      EXPECT_NEAR(b.time * factor / usual.time, 1, 1e-14)
+          << "of the time it should take: at " << factor
+          << " times the speed; the square of the speed may be no double";
+      EXPECT_NEAR((b.place - usual.place).norm(), 0, 1e-14)
+          << "m: the way is the same, however long it takes";
+    }
+  }
 }
 
 }  // namespace

@@ -138,8 +138,10 @@ TEST(Ex03SweptBox, IsNoLargerThanTheBalls) {
     const Bounds path = sampled(point, 2000);
     const double radius = f.half.norm();
     for (int i = 0; i < 3; ++i) {
-      EXPECT_GE(box.low[i], path.low[i] - radius - 1e-5) << "m, axis " << i;
-      EXPECT_LE(box.high[i], path.high[i] + radius + 1e-5) << "m, axis " << i;
+      EXPECT_GE(box.low[i], path.low[i] - radius - 1e-5)
+          << "m, axis " << i << ": a ball around the block, carried along, reaches no farther down";
+      EXPECT_LE(box.high[i], path.high[i] + radius + 1e-5)
+          << "m, axis " << i << ": a ball around the block, carried along, reaches no farther up";
     }
   }
 }

@@ -64,18 +64,18 @@ BeadsResult slowly(std::vector<Bead>& beads, double duration) {
 TEST(Ex04Beads, TwoOfThem) {
   std::vector<Bead> beads{{0, 3, 2}, {6, 0, 1}};
   const BeadsResult result = fly(beads, 5);
-  EXPECT_EQ(result.collisions, 1);
+  EXPECT_EQ(result.collisions, 1) << "collisions: they meet once, and part";
   EXPECT_NEAR(beads[0].velocity, 1, 1e-14) << "m/s: (m1 - m2) / (m1 + m2) of 3 m/s";
   EXPECT_NEAR(beads[1].velocity, 4, 1e-14) << "m/s: 2 m1 / (m1 + m2) of 3 m/s";
   EXPECT_NEAR(beads[0].place, 6 + 3 * 1, 1e-13) << "m: they met at 6 m after 2 s";
-  EXPECT_NEAR(beads[1].place, 6 + 3 * 4, 1e-13) << "m";
+  EXPECT_NEAR(beads[1].place, 6 + 3 * 4, 1e-13) << "m: from 6 m on it flies with 4 m/s for 3 s";
 }
 
 TEST(Ex04Beads, NobodyMeets) {
   std::vector<Bead> beads{{0, -1, 1}, {1, 0, 1}, {2, 0.5, 1}};
   const BeadsResult result = fly(beads, 3);
-  EXPECT_EQ(result.collisions, 0) << "they part";
-  EXPECT_NEAR(beads[0].place, -3, 1e-14) << "m";
+  EXPECT_EQ(result.collisions, 0) << "collisions: each is slower than the next one, so they part";
+  EXPECT_NEAR(beads[0].place, -3, 1e-14) << "m: 3 s at -1 m/s, from 0";
   EXPECT_NEAR(beads[2].place, 3.5, 1e-14) << "m: also who never collides arrives at the end's time";
 }
 
@@ -84,9 +84,10 @@ TEST(Ex04Beads, ABlowGoesThroughTheRow) {
   std::vector<Bead> beads{{0, 2, 1}};
   for (int i = 1; i <= 20; ++i) beads.push_back({static_cast<double>(i), 0, 1});
   const BeadsResult result = fly(beads, 10.5);
-  EXPECT_EQ(result.collisions, 20) << "one for each bead that waits";
+  EXPECT_EQ(result.collisions, 20) << "collisions: one for each bead that waits";
   EXPECT_NEAR(beads.back().velocity, 2, 1e-14) << "m/s: the last one has it all";
-  EXPECT_NEAR(beads.back().place, 21, 1e-12) << "m";
+  EXPECT_NEAR(beads.back().place, 21, 1e-12)
+      << "m: it was hit at 20 m, after 10 s, and flew on for half a second";
   EXPECT_NEAR(beads.front().place, 1, 1e-12) << "m: it stays where the second was";
 }
 
@@ -103,9 +104,11 @@ TEST(Ex04Beads, EqualBeadsExchangeTheirLines) {
     }
     std::sort(ends.begin(), ends.end());
     const BeadsResult result = fly(beads, duration);
-    EXPECT_EQ(result.collisions, crossings) << "of the straight lines of " << count << " equal beads";
+    EXPECT_EQ(result.collisions, crossings)
+        << "collisions: as many as the straight lines of " << count << " equal beads have crossings";
     for (std::size_t i = 0; i < beads.size(); ++i)
-      EXPECT_NEAR(beads[i].place, ends[i], 1e-12 * count) << "m, bead " << i << " of " << count;
+      EXPECT_NEAR(beads[i].place, ends[i], 1e-12 * count)
+          << "m, bead " << i << " of " << count << ": equal beads exchange their straight lines";
   }
 }
 
@@ -115,11 +118,14 @@ TEST(Ex04Beads, AnyMassesAsTheSlowWayDoes) {
     std::vector<Bead> beads = random_beads(random, 12, false), reference = beads;
     const double before = energy(beads), push = momentum(beads);
     const BeadsResult result = fly(beads, 3), slow = slowly(reference, 3);
-    ASSERT_EQ(result.collisions, slow.collisions) << "trial " << trial;
-    EXPECT_NEAR(energy(beads), before, 1e-12 * before) << "J";
-    EXPECT_NEAR(momentum(beads), push, 1e-12 * 12) << "kg m/s";
+    ASSERT_EQ(result.collisions, slow.collisions)
+        << "collisions in trial " << trial << ": one was missed, or counted twice";
+    EXPECT_NEAR(energy(beads), before, 1e-12 * before) << "J: elastic collisions keep the energy";
+    EXPECT_NEAR(momentum(beads), push, 1e-12 * 12) << "kg m/s: nobody pushes from outside";
     for (std::size_t i = 0; i < beads.size(); ++i) {
-      EXPECT_NEAR(beads[i].place, reference[i].place, 1e-8) << "m, bead " << i << " in trial " << trial;
+      EXPECT_NEAR(beads[i].place, reference[i].place, 1e-8)
+          << "m, bead " << i << " in trial " << trial
+          << ", beside the search that asks everybody anew each time";
       if (i == 0) continue;
       EXPECT_GE(beads[i].place, beads[i - 1].place - 1e-12) << "m: beads passed through each other";
     }
@@ -130,10 +136,10 @@ TEST(Ex04Beads, CostsThreeEventsACollision) {
   std::mt19937_64 random(3);
   std::vector<Bead> beads = random_beads(random, 400, true);
   const BeadsResult result = fly(beads, 4);
-  EXPECT_GT(result.collisions, 1500);
-  EXPECT_GT(result.events, result.collisions) << "each collision was an event";
+  EXPECT_GT(result.collisions, 1500) << "collisions: 400 beads meet often";
+  EXPECT_GT(result.events, result.collisions) << "events: each collision was one, and more were made void";
   EXPECT_LE(result.events, 399 + 3 * result.collisions)
-      << "only neighbours of the two need to be asked again";
+      << "events: only neighbours of the two need to be asked again";
 }
 
 }  // namespace

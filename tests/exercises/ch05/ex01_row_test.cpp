@@ -21,12 +21,49 @@ double energy(const Ball& ball, double gravity) {  // J
   return ball.mass * (0.5 * ball.velocity * ball.velocity + gravity * ball.gap);
 }
 
+// First what matters most: an error of places must not become energy.
+TEST(Ex01Row, NoFrameMakesEnergy) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> any(0, 1);
+  int pushed = 0, displaced = 0;
+  for (int trial = 0; trial < 20'000; ++trial) {
+    const Envelope envelope{1e-4 + 0.01 * any(random), 0.001 + 0.03 * any(random), 0.1 + 0.9 * any(random),
+                            0.5 * any(random)};
+    const double gravity = trial % 3 == 0 ? 0 : 20 * any(random);
+    Ball ball{0.1 + any(random), 2 * envelope.width * any(random), 2 * (any(random) - 0.5), 0};
+    const Ball before = ball;
+    const Frame frame = rest(envelope, gravity, ball);
+    ASSERT_LE(0.5 * ball.mass * ball.velocity * ball.velocity,
+              0.5 * ball.mass * std::pow(before.velocity - envelope.dt * gravity, 2) + 1e-13)
+        << "J of kinetic energy, trial " << trial << ", with a gap of " << before.gap / envelope.width
+        << " h at the start: more than gravity gave it. A gap that is put right by a velocity makes energy out of an error, "
+        << "and the ball keeps it; a displacement moves the ball, and no velocity hears of it";
+    ASSERT_GE(frame.impulse, 0) << "N s: floors do not pull";
+    ASSERT_GE(frame.displaced, 0) << "m: displacements widen gaps, never close them";
+    ASSERT_GE(ball.gap, std::min(before.gap, 0.5 * envelope.width) - 1e-15)
+        << "m, trial " << trial << ": it came nearer than the middle";
+    ASSERT_LE(energy(ball, gravity), energy(before, gravity) + frame.energy + 1e-13)
+        << "J, trial " << trial << ": more than the displacement added";
+    ASSERT_NEAR(frame.energy, ball.mass * gravity * frame.displaced, 1e-15)
+        << "J: what the displacement lifted, m g times its height";
+    if (frame.impulse > 1e-12) {
+      ++pushed;
+      ASSERT_NEAR(ball.velocity, -std::max(0.0, before.gap - 0.5 * envelope.width) / envelope.dt, 1e-13)
+          << "m/s: who is pushed is at the bound (complementarity)";
+    }
+    displaced += frame.displaced > 0;
+  }
+  EXPECT_GT(pushed, 1000) << "balls that were pushed, of the test itself";
+  EXPECT_GT(displaced, 1000) << "balls that were displaced, of the test itself";
+}
+
 TEST(Ex01Row, MayCloseInToTheMiddle) {
   EXPECT_EQ(allowed(kEnvelope, kWidth), 0.5 * kWidth / kFrame) << "m/s: half the envelope in one frame";
-  EXPECT_EQ(allowed(kEnvelope, 0.75 * kWidth), 0.25 * kWidth / kFrame) << "m/s: a quarter of it";
+  EXPECT_EQ(allowed(kEnvelope, 0.75 * kWidth), 0.25 * kWidth / kFrame)
+      << "m/s: a quarter of the envelope in one frame, to its middle";
   EXPECT_EQ(allowed(kEnvelope, 3 * kWidth), 2.5 * kWidth / kFrame)
       << "m/s: from outside of the envelope, too, it comes to the middle by the frame's end";
-  EXPECT_EQ(allowed(kEnvelope, 0.5 * kWidth), 0) << "m/s: it is there";
+  EXPECT_EQ(allowed(kEnvelope, 0.5 * kWidth), 0) << "m/s: it is in the middle, and may not come nearer";
 }
 
 TEST(Ex01Row, NoGapBecomesAVelocity) {
@@ -40,10 +77,11 @@ TEST(Ex01Row, WhatIsAnImpact) {
   const double fast = kWidth / kFrame, faster = std::nextafter(fast, 1);
   EXPECT_FALSE(is_impact(kEnvelope, {1, kWidth, -fast, 0.5})) << "h/dt itself is not too fast";
   EXPECT_TRUE(is_impact(kEnvelope, {1, kWidth, -faster, 0.5})) << "this would come through the envelope";
-  EXPECT_TRUE(is_impact(kEnvelope, {1, 0.1 * kWidth, -faster, 0.5}));
+  EXPECT_TRUE(is_impact(kEnvelope, {1, 0.1 * kWidth, -faster, 0.5}))
+      << "faster than h/dt and below h/2 already: an impact";
   EXPECT_FALSE(is_impact(kEnvelope, {1, 0.1 * kWidth, -0.9 * fast, 0.5}))
       << "slow: a row, however near it is";
-  EXPECT_FALSE(is_impact(kEnvelope, {1, kWidth, 10 * fast, 0.5})) << "it parts";
+  EXPECT_FALSE(is_impact(kEnvelope, {1, kWidth, 10 * fast, 0.5})) << "it parts: there is nothing to hit";
 }
 
 TEST(Ex01Row, WithoutBounceNothingIsAnImpact) {
@@ -67,11 +105,12 @@ TEST(Ex01Row, FallsInAndLies) {
   EXPECT_NEAR(frame.impulse, 2 * (kGravity * kFrame - 0.5 * kWidth / kFrame), 1e-14)
       << "N s: m (v+ - v*), the weight but for what it still sinks";
   frame = rest(kEnvelope, kGravity, ball);
-  EXPECT_EQ(ball.velocity, 0) << "m/s: now it is stopped";
-  EXPECT_NEAR(frame.impulse, 2 * (kGravity * kFrame + 0.5 * kWidth / kFrame), 1e-14) << "N s";
+  EXPECT_EQ(ball.velocity, 0) << "m/s: it has come to the middle, and is stopped there";
+  EXPECT_NEAR(frame.impulse, 2 * (kGravity * kFrame + 0.5 * kWidth / kFrame), 1e-14)
+      << "N s: m (v+ - v*), the weight of a frame and what stops the ball";
   for (int k = 0; k < 1000; ++k) {
     frame = rest(kEnvelope, kGravity, ball);
-    ASSERT_EQ(ball.velocity, 0) << "m/s, frame " << k << ": it lies";
+    ASSERT_EQ(ball.velocity, 0) << "m/s, frame " << k << ": it lies still";
     ASSERT_NEAR(ball.gap, 0.5 * kWidth, kRounding) << "m, frame " << k << ": it lies in the middle";
     ASSERT_NEAR(frame.impulse, 2 * kGravity * kFrame, 1e-14) << "N s: the weight, for one frame";
   }
@@ -81,8 +120,8 @@ TEST(Ex01Row, WhatComesSlowlyIsNotPushed) {
   Ball ball{1, kWidth, -0.1 * kWidth / kFrame, 0};
   const Frame frame = rest(kEnvelope, 0, ball);
   EXPECT_EQ(frame.impulse, 0) << "N s: it does not come to the middle in this frame, nobody has to push";
-  EXPECT_NEAR(ball.gap, 0.9 * kWidth, kRounding) << "m";
-  EXPECT_EQ(ball.velocity, -0.1 * kWidth / kFrame) << "m/s";
+  EXPECT_NEAR(ball.gap, 0.9 * kWidth, kRounding) << "m: it flies on, a tenth of the envelope in a frame";
+  EXPECT_EQ(ball.velocity, -0.1 * kWidth / kFrame) << "m/s: nobody pushed, so its velocity stays";
 }
 
 TEST(Ex01Row, WhatPartsIsNotHeld) {
@@ -90,7 +129,7 @@ TEST(Ex01Row, WhatPartsIsNotHeld) {
     Ball ball{1, part * kWidth, 1, 0};
     const Frame frame = rest(kEnvelope, kGravity, ball);
     EXPECT_EQ(frame.impulse, 0) << "N s: floors do not pull";
-    EXPECT_NEAR(ball.velocity, 1 - kGravity * kFrame, 1e-15) << "m/s";
+    EXPECT_NEAR(ball.velocity, 1 - kGravity * kFrame, 1e-15) << "m/s: only gravity acts on what parts";
     EXPECT_NEAR(ball.gap, part * kWidth + kFrame * (1 - kGravity * kFrame), 1e-15)
         << "m: after the frame it is far above the middle, and nothing is to be put right";
     EXPECT_EQ(frame.displaced, 0) << "m: what counts is the gap at the frame's end";
@@ -99,13 +138,16 @@ TEST(Ex01Row, WhatPartsIsNotHeld) {
 
 TEST(Ex01Row, HowFarAGapIsDisplaced) {
   for (const double part : {0.5, 0.6, 1.0, 5.0})
-    EXPECT_EQ(displacement(kEnvelope, part * kWidth), 0) << "m, gap " << part << " h";
-  EXPECT_NEAR(displacement(kEnvelope, 0.3 * kWidth), 0.04 * kWidth, kRounding) << "m: a fifth of 0.2 h";
+    EXPECT_EQ(displacement(kEnvelope, part * kWidth), 0)
+        << "m, gap " << part << " h: from the middle on nothing is to be put right";
+  EXPECT_NEAR(displacement(kEnvelope, 0.3 * kWidth), 0.04 * kWidth, kRounding)
+      << "m: a fifth of the 0.2 h that lack to the middle";
   EXPECT_NEAR(displacement(kEnvelope, 0.24 * kWidth), 0.052 * kWidth, kRounding)
       << "m: a fifth of 0.26 h is more than the hundredth that lacks to h/4";
   EXPECT_NEAR(displacement(kEnvelope, 0.1 * kWidth), 0.15 * kWidth, kRounding)
       << "m: what lacks to h/4, at once, for there the reserve begins";
-  EXPECT_NEAR(displacement({kWidth, kFrame, 1, 0}, 0), 0.5 * kWidth, kRounding) << "m: share 1, all of it";
+  EXPECT_NEAR(displacement({kWidth, kFrame, 1, 0}, 0), 0.5 * kWidth, kRounding)
+      << "m: with a share of 1 all that lacks to the middle, at once";
 }
 
 TEST(Ex01Row, ATouchOpensToTheMiddle) {
@@ -115,39 +157,11 @@ TEST(Ex01Row, ATouchOpensToTheMiddle) {
     const Frame frame = rest(kEnvelope, kGravity, ball);
     sum += frame.energy;
     // First to h/4; after that each frame leaves four fifths of what lacks.
-    ASSERT_NEAR(ball.gap, kWidth * (0.5 - 0.25 * std::pow(0.8, k - 1)), kRounding) << "m, after frame " << k;
+    ASSERT_NEAR(ball.gap, kWidth * (0.5 - 0.25 * std::pow(0.8, k - 1)), kRounding)
+        << "m, after frame " << k << ": at once to h/4, and then each frame leaves four fifths of what lacks";
     ASSERT_EQ(ball.velocity, 0) << "m/s, after frame " << k << ": displacements are no velocities";
     ASSERT_NEAR(sum, 3 * kGravity * ball.gap, 1e-15) << "J: all that the displacements have lifted, m g h";
   }
-}
-
-TEST(Ex01Row, NoFrameMakesEnergy) {
-  std::mt19937_64 random(1);
-  std::uniform_real_distribution<double> any(0, 1);
-  int pushed = 0, displaced = 0;
-  for (int trial = 0; trial < 20'000; ++trial) {
-    const Envelope envelope{1e-4 + 0.01 * any(random), 0.001 + 0.03 * any(random), 0.1 + 0.9 * any(random),
-                            0.5 * any(random)};
-    const double gravity = trial % 3 == 0 ? 0 : 20 * any(random);
-    Ball ball{0.1 + any(random), 2 * envelope.width * any(random), 2 * (any(random) - 0.5), 0};
-    const Ball before = ball;
-    const Frame frame = rest(envelope, gravity, ball);
-    ASSERT_GE(frame.impulse, 0) << "N s: floors do not pull";
-    ASSERT_GE(frame.displaced, 0) << "m: displacements part";
-    ASSERT_GE(ball.gap, std::min(before.gap, 0.5 * envelope.width) - 1e-15)
-        << "m, trial " << trial << ": it came nearer than the middle";
-    ASSERT_LE(energy(ball, gravity), energy(before, gravity) + frame.energy + 1e-13)
-        << "J, trial " << trial << ": more than the displacement added";
-    ASSERT_NEAR(frame.energy, ball.mass * gravity * frame.displaced, 1e-15) << "J";
-    if (frame.impulse > 1e-12) {
-      ++pushed;
-      ASSERT_NEAR(ball.velocity, -std::max(0.0, before.gap - 0.5 * envelope.width) / envelope.dt, 1e-13)
-          << "m/s: who is pushed is at the bound (complementarity)";
-    }
-    displaced += frame.displaced > 0;
-  }
-  EXPECT_GT(pushed, 1000);
-  EXPECT_GT(displaced, 1000);
 }
 
 }  // namespace

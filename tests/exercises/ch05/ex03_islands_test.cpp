@@ -57,17 +57,18 @@ void expect_islands(const std::vector<Island>& got, const std::vector<Island>& e
 
 TEST(Ex03Islands, SetsGrowTogether) {
   Sets sets(6);
-  EXPECT_EQ(sets.size(3), 1);
-  EXPECT_TRUE(sets.join(0, 1));
-  EXPECT_TRUE(sets.join(2, 3));
-  EXPECT_TRUE(sets.join(1, 3)) << "over members that are no roots, too";
-  EXPECT_FALSE(sets.join(0, 2)) << "they are one already";
-  EXPECT_EQ(sets.size(0), 4);
-  EXPECT_EQ(sets.size(4), 1);
-  for (const int i : {1, 2, 3}) EXPECT_EQ(sets.find(i), sets.find(0)) << "number " << i;
-  EXPECT_NE(sets.find(4), sets.find(0));
-  EXPECT_NE(sets.find(4), sets.find(5));
-  EXPECT_EQ(sets.find(sets.find(2)), sets.find(2)) << "a root is its own";
+  EXPECT_EQ(sets.size(3), 1) << "members: at first each number is a set by itself";
+  EXPECT_TRUE(sets.join(0, 1)) << "0 and 1 were two sets, and become one";
+  EXPECT_TRUE(sets.join(2, 3)) << "2 and 3 were two sets, and become one";
+  EXPECT_TRUE(sets.join(1, 3)) << "sets become one over members that are no roots, too";
+  EXPECT_FALSE(sets.join(0, 2)) << "0 and 2 are of one set already, over 1 and 3";
+  EXPECT_EQ(sets.size(0), 4) << "members: 0, 1, 2 and 3";
+  EXPECT_EQ(sets.size(4), 1) << "members: nobody joined 4";
+  for (const int i : {1, 2, 3})
+    EXPECT_EQ(sets.find(i), sets.find(0)) << "roots: " << i << " is of one set with 0, so both have the same";
+  EXPECT_NE(sets.find(4), sets.find(0)) << "roots: 4 is of another set than 0";
+  EXPECT_NE(sets.find(4), sets.find(5)) << "roots: 4 and 5 are each by themselves";
+  EXPECT_EQ(sets.find(sets.find(2)), sets.find(2)) << "roots: a root is its own root";
 }
 
 TEST(Ex03Islands, TwoStacksOnOneFloor) {
@@ -120,10 +121,10 @@ TEST(Ex03Islands, AsFromBodyToBody) {
     }
     const std::vector<Island> got = islands_of(fixed, contacts);
     ASSERT_NO_FATAL_FAILURE(expect_islands(got, slowly(fixed, contacts), "as a plain search has it"))
-        << "trial " << trial;
+        << "random contacts, trial " << trial;
     islands += got.size();
   }
-  EXPECT_GT(islands, 500U);
+  EXPECT_GT(islands, 500U) << "islands in all trials, of the test itself";
 }
 
 // Joined in this order, two and two, four and four, ..., trees become as high as they can.

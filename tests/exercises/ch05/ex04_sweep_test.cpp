@@ -99,7 +99,7 @@ TEST(Ex04Sweep, EffectiveMasses) {
   EXPECT_NEAR(effective_mass(balls.bodies, {0, 1, {0, 0, 0.5}, Vec3::UnitZ()}), 2, 1e-14)
       << "kg: the floor does not yield, the cube's centre is above the point";
   EXPECT_NEAR(effective_mass(balls.bodies, {1, 2, {0, 0, 1.5}, Vec3::UnitZ()}), 1.5, 1e-14)
-      << "kg: 1 / (1/2 + 1/6)";
+      << "kg: 1 / (1/2 + 1/6): two that yield answer with less than either";
   // At a corner of a cube of 1 kg: 1/m + |r x n|^2 / I = 1 + (1/2) / (1/6) = 4 /kg.
   balls.bodies[1] = cube({0, 0, 1}, Vec3::Zero(), 1);
   EXPECT_NEAR(effective_mass(balls.bodies, {0, 1, {0.5, 0.5, 0.5}, Vec3::UnitZ()}), 0.25, 1e-14)
@@ -118,9 +118,9 @@ TEST(Ex04Sweep, ABodyThatIsTurned) {
   EXPECT_NEAR(effective_mass(scene.bodies, end), 1 / (1 + 0.25 / inertia), 1e-13)
       << "kg: about the axis across the bar, which is x in the world and y in its own axes";
   apply(scene.bodies, std::vector<Contact>{end}, Numbers{2});
-  EXPECT_NEAR(bar.velocity.z(), 2, 1e-14) << "m/s";
-  EXPECT_NEAR(bar.spin.x(), 0.5 * 2 / inertia, 1e-12) << "rad/s: r x j / I";
-  EXPECT_NEAR(bar.spin.y(), 0, 1e-13) << "rad/s";
+  EXPECT_NEAR(bar.velocity.z(), 2, 1e-14) << "m/s: 2 N s on 1 kg";
+  EXPECT_NEAR(bar.spin.x(), 0.5 * 2 / inertia, 1e-12) << "rad/s: r x j / I, about x in the world";
+  EXPECT_NEAR(bar.spin.y(), 0, 1e-13) << "rad/s: the blow has no lever arm about the bar itself";
 }
 
 TEST(Ex04Sweep, ABodyThatLands) {
@@ -129,8 +129,9 @@ TEST(Ex04Sweep, ABodyThatLands) {
   scene.bodies[1].set_mass(fc::box_mass({1, 1, 1}, 2));
   EXPECT_NEAR(scene.sweep_once(), 2.5, 1e-14) << "m/s: so much was too fast";
   EXPECT_NEAR(scene.bodies[1].velocity.z(), -0.5, 1e-14) << "m/s: it may close in with 0.5";
-  EXPECT_NEAR(scene.impulses[0], 5, 1e-14) << "N s";
-  EXPECT_NEAR(scene.sweep_once(), 0, 1e-14) << "m/s: it was solved";
+  EXPECT_NEAR(scene.impulses[0], 5, 1e-14) << "N s: 2 kg lose 2.5 m/s";
+  EXPECT_NEAR(scene.sweep_once(), 0, 1e-14)
+      << "m/s: one row is solved by one sweep, so a second changes nothing";
   scene.allowed[0] = -1;
   scene.sweep_once();
   EXPECT_NEAR(scene.bodies[1].velocity.z(), 1, 1e-14) << "m/s: now it must part with 1";
@@ -138,9 +139,9 @@ TEST(Ex04Sweep, ABodyThatLands) {
 
 TEST(Ex04Sweep, WhatPartsIsLetGo) {
   Scene scene = stack(1, -2);
-  EXPECT_EQ(scene.sweep_once(), 0) << "m/s: nothing to do";
+  EXPECT_EQ(scene.sweep_once(), 0) << "m/s: it parts, so its row changes nothing";
   EXPECT_EQ(scene.impulses[0], 0) << "N s: contacts do not pull";
-  EXPECT_EQ(scene.bodies[1].velocity.z(), 2) << "m/s";
+  EXPECT_EQ(scene.bodies[1].velocity.z(), 2) << "m/s: what parts flies on";
 }
 
 TEST(Ex04Sweep, WhatWasTooMuchIsTakenBack) {
@@ -150,7 +151,7 @@ TEST(Ex04Sweep, WhatWasTooMuchIsTakenBack) {
   EXPECT_NEAR(scene.bodies[1].velocity.z(), 3, 1e-14) << "m/s: 5 N s on 1 kg that came with 2 m/s";
   scene.sweep_once();
   EXPECT_NEAR(scene.impulses[0], 2, 1e-14) << "N s: the sum must not be negative, a change of it may";
-  EXPECT_NEAR(scene.bodies[1].velocity.z(), 0, 1e-14) << "m/s";
+  EXPECT_NEAR(scene.bodies[1].velocity.z(), 0, 1e-14) << "m/s: 2 N s just stop it";
 }
 
 // From below, the floor stops body 1, which shares what body 2 brings, which shares what body 3 brings, ...
@@ -164,7 +165,7 @@ TEST(Ex04Sweep, ARowFromBelow) {
         << "m/s, body " << k
         << ": each contact halves the difference, and the next one changes its upper body";
     EXPECT_NEAR(scene.impulses[static_cast<std::size_t>(k) - 1], std::pow(0.5, k - 1), 1e-14)
-        << "N s, contact " << k - 1;
+        << "N s, contact " << k - 1 << ": half as much as the one below, which was served before";
   }
 }
 
@@ -186,7 +187,7 @@ TEST(Ex04Sweep, AStackCarriesItsWeight) {
   const double speed = 9.81 / 60;  // m/s, of one frame
   Scene scene = stack(kCount, speed);
   const int sweeps = solve(scene.bodies, scene.contacts, scene.allowed, scene.impulses, 1e-13, 5000);
-  EXPECT_LT(sweeps, 5000) << "sweeps";
+  EXPECT_LT(sweeps, 5000) << "sweeps: a stack of eight is solved in some hundreds";
   EXPECT_GT(sweeps, kCount) << "sweeps: the last news has to come down again";
   for (int k = 0; k < kCount; ++k)
     EXPECT_NEAR(scene.impulses[static_cast<std::size_t>(k)], (kCount - k) * speed, 1e-10)
@@ -197,7 +198,8 @@ TEST(Ex04Sweep, AStackCarriesItsWeight) {
     if (!body.is_static()) body.velocity.z() -= speed;
   EXPECT_EQ(solve(scene.bodies, scene.contacts, scene.allowed, scene.impulses, 1e-10, 5000), 1)
       << "sweeps: the guess is the answer, and one sweep sees that";
-  for (const RigidBody& body : scene.bodies) EXPECT_NEAR(body.velocity.norm(), 0, 1e-10) << "m/s";
+  for (const RigidBody& body : scene.bodies)
+    EXPECT_NEAR(body.velocity.norm(), 0, 1e-10) << "m/s: the stack stands";
 }
 
 TEST(Ex04Sweep, CountsItsSweeps) {
@@ -225,7 +227,8 @@ TEST(Ex04Sweep, AsOnTheMatrix) {
         largest = std::max(largest, problem.A(i, i) * std::abs(z[i] - before));
       }
       const double change = scene.sweep_once();
-      ASSERT_NEAR(change, largest, 1e-11) << "m/s, seed " << seed << ", sweep " << sweeps;
+      ASSERT_NEAR(change, largest, 1e-11)
+          << "m/s, the largest change of sweep " << sweeps << " (seed " << seed << "), as on the matrix";
       for (Eigen::Index i = 0; i < n; ++i)
         ASSERT_NEAR(scene.impulses[static_cast<std::size_t>(i)], z[i], 1e-11)
             << "N s, contact " << i << ", seed " << seed << ", sweep " << sweeps;
@@ -241,13 +244,14 @@ TEST(Ex04Sweep, EndsAtTheExactAnswer) {
     fc::VecX b = problem.v_before;
     for (Eigen::Index i = 0; i < b.size(); ++i) b[i] += scene.allowed[static_cast<std::size_t>(i)];
     const fc::lcp::LcpResult exact = fc::lcp::solve_dantzig({problem.A, b});
-    ASSERT_EQ(exact.status, fc::lcp::Status::solved) << "seed " << seed;
+    ASSERT_EQ(exact.status, fc::lcp::Status::solved) << "seed " << seed << ", of the test itself";
     solve(scene.bodies, scene.contacts, scene.allowed, scene.impulses, 1e-13, 100'000);
     for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
       ASSERT_NEAR(fc::lcp::contact_velocity(scene.bodies, scene.contacts[i]) + scene.allowed[i],
                   exact.w[static_cast<Eigen::Index>(i)], 1e-8)
-          << "m/s, contact " << i << ", seed " << seed;
-      ASSERT_GE(scene.impulses[i], 0) << "N s";
+          << "m/s, contact " << i << ", seed " << seed
+          << ": the velocities are unique, and Dantzig's method has them";
+      ASSERT_GE(scene.impulses[i], 0) << "N s: contacts do not pull";
     }
   }
 }
@@ -259,7 +263,8 @@ TEST(Ex04Sweep, NoSweepMakesEnergyOrMomentum) {
     double last = scene.energy();
     for (int sweeps = 1; sweeps <= 20; ++sweeps) {
       scene.sweep_once();
-      ASSERT_LE(scene.energy(), last * (1 + 1e-13)) << "J, seed " << seed << ", sweep " << sweeps;
+      ASSERT_LE(scene.energy(), last * (1 + 1e-13)) << "J, seed " << seed << ", sweep " << sweeps
+                                                    << ": no row gives energy to what only may not close in";
       last = scene.energy();
     }
     ASSERT_LE((scene.momentum() - momentum).norm(), 1e-12) << "kg m/s: nobody pushes from outside";

@@ -20,8 +20,8 @@ constexpr double kWidth = 1, kGravity = 10;  // m, m/s^2: an envelope in which o
 void expect_displaced(const Boxes& boxes, bool floor, double share, const std::vector<double>& expected,
                       double energy, const char* meaning) {
   const Steering got = steer(boxes, floor, kWidth, share, kGravity);
-  ASSERT_EQ(got.displaced.size(), expected.size()) << "a displacement for each box";
-  ASSERT_EQ(got.pushes.size(), expected.size()) << "a push for each gap";
+  ASSERT_EQ(got.displaced.size(), expected.size()) << "displacements: one for each box";
+  ASSERT_EQ(got.pushes.size(), expected.size()) << "pushes: one for each gap";
   for (std::size_t i = 0; i < expected.size(); ++i)
     EXPECT_NEAR(got.displaced[i], expected[i], 1e-14) << "m, box " << i << ": " << meaning;
   EXPECT_NEAR(got.energy, energy, 1e-13) << "J: " << meaning;
@@ -44,8 +44,8 @@ Boxes random_boxes(std::mt19937_64& random, int count, double decades) {
 // The conditions in the header; with them the answer is the only one.
 void expect_solution(const Boxes& boxes, bool floor, double share) {
   const Steering got = steer(boxes, floor, kWidth, share, kGravity);
-  ASSERT_EQ(got.displaced.size(), boxes.size());
-  ASSERT_EQ(got.pushes.size(), boxes.size());
+  ASSERT_EQ(got.displaced.size(), boxes.size()) << "displacements: one for each box";
+  ASSERT_EQ(got.pushes.size(), boxes.size()) << "pushes: one for each gap";
   double size = 0, weight = 0, sum = 0;  // m, kg, kg m
   for (const Box& box : boxes) {
     size += std::abs(row(box, share));
@@ -58,7 +58,7 @@ void expect_solution(const Boxes& boxes, bool floor, double share) {
     ASSERT_GE(got.pushes[i], 0) << "kg m, gap " << i << ": nothing pulls";
     sum += boxes[i].mass * got.displaced[i];
     if (i == 0 && !floor) {
-      ASSERT_EQ(got.pushes[0], 0) << "kg m: there is no floor";
+      ASSERT_EQ(got.pushes[0], 0) << "kg m: in the air there is no floor that could push";
       continue;
     }
     const double slack = got.displaced[i] - (i > 0 ? got.displaced[i - 1] : 0) - row(boxes[i], share);
@@ -68,7 +68,7 @@ void expect_solution(const Boxes& boxes, bool floor, double share) {
     }
   }
   ASSERT_NEAR(got.energy, kGravity * sum, 1e-11 * weight * size) << "J: g times the sum of m d";
-  ASSERT_GE(got.energy, 0) << "J";
+  ASSERT_GE(got.energy, 0) << "J: to put gaps right never takes energy away";
 }
 
 TEST(Ex05Column, OneBox) {
@@ -89,7 +89,8 @@ TEST(Ex05Column, AColumnThatTouches) {
     EXPECT_NEAR(got.pushes[static_cast<std::size_t>(i)], 0.1 * (kCount * (kCount + 1) - i * (i + 1)), 1e-13)
         << "kg m, gap " << i << ": the sum of m d of all above";
   }
-  EXPECT_NEAR(got.energy, 2 * kGravity * 0.1 * kCount * (kCount + 1) / 2, 1e-12) << "J: grows as n^2";
+  EXPECT_NEAR(got.energy, 2 * kGravity * 0.1 * kCount * (kCount + 1) / 2, 1e-12)
+      << "J: box i is lifted by i times 0.1 m; the sum grows as n^2";
 }
 
 TEST(Ex05Column, AWideGapTakesItIn) {
@@ -159,12 +160,13 @@ TEST(Ex05Column, AsDantzigHasIt) {
     }
     const fc::MatX A = J * inverse * J.transpose();
     const fc::lcp::LcpResult exact = fc::lcp::solve_dantzig({A, b});
-    ASSERT_EQ(exact.status, fc::lcp::Status::solved) << "trial " << trial;
+    ASSERT_EQ(exact.status, fc::lcp::Status::solved) << "trial " << trial << ", of the test itself";
     const fc::VecX d = inverse * J.transpose() * exact.z;
     const Steering got = steer(boxes, true, kWidth, 0.7, kGravity);
     for (int i = 0; i < count; ++i)
       ASSERT_NEAR(got.displaced[static_cast<std::size_t>(i)], d[i], 1e-9)
-          << "m, box " << i << " of " << count << ", trial " << trial;
+          << "m, box " << i << " of " << count << ", trial " << trial
+          << ": the least motion is the only answer, and Dantzig has it";
   }
 }
 
@@ -184,6 +186,27 @@ TEST(Ex05Column, AHundredThousandBoxes) {
   expect_solution(boxes, true, 0.2);
   expect_solution(boxes, false, 1);
   expect_solution(Boxes(100'000, {1, 0}), true, 0.2);
+}
+
+// Rounding of a sum grows with the number of what is added: 0.1, a hundred thousand times, is off by 2e-8.
+TEST(Ex05Column, AHundredThousandRoundingsDoNotAdd) {
+  constexpr int kCount = 100'000;
+  const double gaps[] = {0, 0.3, 0.47}, shares[] = {0.2, 1, 0.7};
+  for (const double gap : gaps) {
+    for (const double share : shares) {
+      const long double each = static_cast<long double>(share) * (0.5L * kWidth - gap), size = kCount * each;
+      const Steering got = steer(Boxes(kCount, {1, gap}), true, kWidth, share, kGravity);
+      ASSERT_EQ(got.displaced.size(), static_cast<std::size_t>(kCount)) << "displacements: one for each box";
+      for (int i = 0; i < kCount; ++i)
+        ASSERT_NEAR(static_cast<double>(got.displaced[static_cast<std::size_t>(i)] - (i + 1) * each), 0,
+                    static_cast<double>(1e-12L * size))
+            << "m, from " << static_cast<double>((i + 1) * each) << " m: box " << i
+            << " is lifted by its own row and all below it; in so long a sum a double does not keep 12 digits";
+      ASSERT_NEAR(static_cast<double>(got.pushes[0] - 0.5L * kCount * (kCount + 1) * each), 0,
+                  static_cast<double>(1e-12L * kCount * size))
+          << "kg m: the floor pushes all of them";
+    }
+  }
 }
 
 }  // namespace
