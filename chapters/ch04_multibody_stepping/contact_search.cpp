@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "ch02_hull_hierarchy/features.hpp"
+#include "ch04_multibody_stepping/passing_plane.hpp"
 #include "ch04_multibody_stepping/sensors.hpp"
 
 namespace fc::world {
@@ -19,9 +20,9 @@ constexpr double kRoundingTerms = 64;  // a certified gap below so many rounding
 constexpr double kStallShare = 0.01;
 
 // A pair without a gap to spend either parts, which is proved in some tens of steps, or slides or turns in
-// contact, which no number of steps would prove. So many pairs of nodes decide; more only cost. Consequence:
-// a pair that needs more is held for the rest of the frame.
-constexpr std::int64_t kStallPairs = 10'000;
+// contact, which no number of steps would prove. So many pairs of nodes decide, of two convex bodies and of meshes; more
+// only cost. Consequence: a pair that needs more is held for the rest of the frame.
+constexpr std::int64_t kStallPairs = 256, kStallPairsOfMeshes = 10'000;
 
 constexpr double kSharpShare = 0.25;  // of the tolerance: a gap below it is measured more sharply
 
@@ -94,6 +95,26 @@ bool are_balls(const World& world, const Pair& pair) {
          world.ball_radius[world.bodies[pair.b].shape] > 0;
 }
 
+// A gap along a plane of so many rounding terms below zero is none: the two touch.
+double least_gap(const NearPair& pair) {
+  return -kRoundingTerms * ca::rounding_term(pair.a.whole(), pair.b.whole(), pair.pose);
+}
+
+// Contacts of edges and corners may have any normal between those of the faces beside them. They get that of the face
+// along which the bodies close in slowest, if there is one that parts them: see passing_plane.hpp.
+void turn_to_passing_planes(const NearPair& near, const Vec3& origin_a,
+                            std::vector<ca::FeaturePair>& features) {
+  for (ca::FeaturePair& f : features) {
+    if (f.kind_a == ca::FeatureKind::face || f.kind_b == ca::FeatureKind::face) continue;
+    const Witnesses at{f.point_a - origin_a, f.point_b - origin_a};
+    const double fastest = closing_speed(near, f.normal, at);
+    if (const auto plane = slowest_plane(near, faces_beside(near, f), at, fastest, least_gap(near))) {
+      f.normal = *plane;
+      f.gap = plane->dot(f.point_b - f.point_a);
+    }
+  }
+}
+
 // The contacts of one pair at time `now`, and its certified gap (m); none if it does not touch.
 std::vector<lcp::Contact> contacts_of(const World& world, const Pair& pair, double now, double& certified) {
   const double within = std::max(world.tolerance, world.touch);
@@ -108,10 +129,12 @@ std::vector<lcp::Contact> contacts_of(const World& world, const Pair& pair, doub
   }
   const ca::Motion motion_a = world.motion(pair.a, now), motion_b = world.motion(pair.b, now);
   if (out_of_reach(world, pair, motion_a, motion_b, 0, within)) return {};
-  const ca::PairPose pose(motion_a, motion_b, 0);
+  const NearPair near{world.model_of(pair.a), motion_a, world.model_of(pair.b), motion_b, 0};
+  std::vector<ca::FeaturePair> features =
+      near_features(world, pair.a, pair.b, near.pose, motion_a.position, within, &certified);
+  turn_to_passing_planes(near, motion_a.position, features);
   std::vector<lcp::Contact> contacts;
-  for (const ca::FeaturePair& feature :
-       near_features(world, pair.a, pair.b, pose, motion_a.position, within, &certified))
+  for (const ca::FeaturePair& feature : features)
     contacts.push_back({pair.a, pair.b, 0.5 * (feature.point_a + feature.point_b), feature.normal,
                         feature.gap, world.restitution_of(pair.a, pair.b), world.turns(pair.a),
                         world.turns(pair.b)});
@@ -147,6 +170,21 @@ double reported_gap(const World& world, const Pair& pair, const ca::PairPose& po
   return std::max(found, lower);
 }
 
+// Whether two bodies that are near each other pass without meeting, from near.time on for `interval` seconds.
+bool passes(const World& world, const NearPair& near, double interval, const hulls::LeafPair& nearest) {
+  const Witnesses at{nearest.gjk.point_a, nearest.gjk.point_b};
+  const double least = least_gap(near), fastest = world.keep() / interval;
+  const auto plane = slowest_plane(near, faces_beside(near, nearest), at, fastest, least);
+  if (!plane) return false;
+  const double gap = gap_along(near, *plane);
+  const double target = gap > -least ? 0.5 * std::min(gap, world.keep()) : gap + least;
+  return clear_along(near, *plane, target, interval) >= interval;
+}
+
+std::int64_t stall_pairs(const World& world, const Pair& pair) {
+  return world.convex(pair.a) && world.convex(pair.b) ? kStallPairs : kStallPairsOfMeshes;
+}
+
 }  // namespace
 
 std::vector<ca::FeaturePair> near_features(const World& world, int a, int b, const ca::PairPose& pose,
@@ -165,13 +203,13 @@ void find_next_contact(const World& world, Pair& pair, double now, double dt, st
                        StepReport& report) {
   pair.contact = pair.stalled = false;
   pair.time = dt;
-  if (!world.may_meet(pair.a, pair.b)) return;
+  if (!world.may_meet(pair.a, pair.b) || world.held_together(pair.a, pair.b)) return;
   if (are_balls(world, pair) && balls_meet(world, pair, now, dt, report)) return;
   const ca::Motion motion_a = world.motion(pair.a, now), motion_b = world.motion(pair.b, now);
   if (out_of_reach(world, pair, motion_a, motion_b, dt - now, world.keep())) return;
 
   const hulls::Model &model_a = world.model_of(pair.a), &model_b = world.model_of(pair.b);
-  const ca::PairPose pose(motion_a, motion_b, 0);
+  const NearPair near{model_a, motion_a, model_b, motion_b, 0};
   hulls::ReachOptions options;
   options.interval = dt - now;
   options.tolerance = world.tolerance;
@@ -189,22 +227,29 @@ void find_next_contact(const World& world, Pair& pair, double now, double dt, st
     options.start = world.keep();
     search();
     if (reach.status == hulls::Reach::Status::reached && reach.time == 0)
-      gap = hulls::model_distance(model_a, model_b, pose, world.tolerance).lower;
+      gap = hulls::model_distance(model_a, model_b, near.pose, world.tolerance).lower;
     if (reach.status == hulls::Reach::Status::clear)
-      report.min_gap = std::min(report.min_gap, reported_gap(world, pair, pose, reach.start_gap, report));
+      report.min_gap =
+          std::min(report.min_gap, reported_gap(world, pair, near.pose, reach.start_gap, report));
   }
   bool little = false;  // no gap to spend
   if (gap) {
     // A distance is known to a sixteenth of the tolerance asked for: where little is left, ask for more
     // digits.
-    if (*gap < kSharpShare * world.tolerance)
-      gap = std::max(
-          *gap,
-          hulls::model_distance(model_a, model_b, pose, kSharpShare * kStallShare * world.tolerance).lower);
+    if (*gap < kSharpShare * world.tolerance) {
+      const hulls::ModelDistance sharp =
+          hulls::model_distance(model_a, model_b, near.pose, kSharpShare * kStallShare * world.tolerance);
+      gap = std::max(*gap, sharp.lower);
+      // What slides or turns on a face is proved to pass along that face: the search would creep.
+      if (sharp.nearest.a >= 0 && passes(world, near, options.interval, sharp.nearest)) {
+        report.min_gap = std::min(report.min_gap, *gap);
+        return;
+      }
+    }
     report.min_gap = std::min(report.min_gap, *gap);
-    const double smallest = kRoundingTerms * ca::rounding_term(model_a.whole(), model_b.whole(), pose);
+    const double smallest = -least_gap(near);
     little = *gap <= std::max(smallest, kStallShare * world.tolerance);
-    if (little) options.max_pairs = std::min(world.max_pairs, kStallPairs);
+    if (little) options.max_pairs = std::min(world.max_pairs, stall_pairs(world, pair));
     const double spend = std::min(*gap, world.keep());
     options.target = *gap > smallest ? 0.5 * spend : *gap - smallest;
     options.slack = 0.25 * (*gap > smallest ? std::min(spend, world.tolerance) : smallest);
@@ -213,6 +258,10 @@ void find_next_contact(const World& world, Pair& pair, double now, double dt, st
   }
   if (reach.status == hulls::Reach::Status::clear) return;
   const bool limit = reach.status == hulls::Reach::Status::limit;
+  if (!limit) {  // it comes near, but only slides past
+    const NearPair there{model_a, motion_a, model_b, motion_b, reach.time};
+    if (passes(world, there, options.interval - reach.time, reach.pair)) return;
+  }
   pair.stalled = limit ? little : little || !(now + reach.time > now);
   pair.contact = !limit || pair.stalled;
   pair.time = pair.stalled ? now : now + reach.time;

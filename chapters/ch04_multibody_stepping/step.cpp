@@ -105,25 +105,31 @@ class Stepper {
   // Solves everything that touches in the island, and starts the bodies anew from `now`.
   void solve(const Island& island, double now);
 
-  // Stops the island's bodies until the frame's end, and the kinematic ones that move into them: whoever
-  // would go on would go through.
+  // Holds the island until the frame's end. One that touches nothing fixed goes on with its centre of mass; any other stays,
+  // with the kinematic bodies that move into it: whoever would go on would go through.
   void hold(const Island& island, double now) {
     std::vector<int> stopped = island.bodies;
-    bool lies = true;  // on nothing that moves
-    for (const lcp::Contact& contact : island.contacts)
-      for (const int body : {contact.body_a, contact.body_b}) {
-        if (!world_.carries(body)) continue;
-        lies = false;
-        const double towards_b = contact.normal.dot(world_.state_at(body, now).velocity_at(contact.point));
-        const bool into = body == contact.body_a ? towards_b > 0 : towards_b < 0;
-        if (into && std::find(stopped.begin(), stopped.end(), body) == stopped.end()) stopped.push_back(body);
-      }
-    std::erase_if(stopped, [&](int body) { return world_.bodies[body].held || world_.bodies[body].asleep; });
+    const bool free = is_free(island);
+    bool lies = !free;  // on nothing that moves
+    if (!free)
+      for (const lcp::Contact& contact : island.contacts) stop_pushers(contact, now, stopped, lies);
+    std::erase_if(stopped,
+                  [&](int body) { return world_.bodies[body].asleep || is_still(world_.bodies[body]); });
+    Vec3 momentum = Vec3::Zero();
+    double mass = 0;
     for (const int body : stopped) {
+      if (world_.bodies[body].held) lose(now - world_.bodies[body].time);
       world_.carry(body, now, now);
-      world_.bodies[body].held = true;
-      world_.bodies[body].steered = false;
-      world_.bodies[body].lies = lies;
+      momentum += world_.bodies[body].state.momentum();
+      mass += world_.bodies[body].state.mass;
+    }
+    for (const int body : stopped) {
+      Body& b = world_.bodies[body];
+      b.held = true;
+      b.steered = false;
+      b.lies = lies;
+      b.group = free ? island.bodies.front() : -1;
+      b.group_velocity = free ? Vec3(momentum / mass) : Vec3(Vec3::Zero());
     }
     new_courses(stopped, now);
   }
@@ -140,6 +146,31 @@ class Stepper {
   }
 
  private:
+  // Held where it is, not as one of a group that goes on.
+  static bool is_still(const Body& body) { return body.held && body.group < 0; }
+  void lose(double time) { report_.lost_time = std::max(report_.lost_time, time); }
+
+  // Whether all that the island touches is in it, and free to move.
+  bool is_free(const Island& island) const {
+    for (const lcp::Contact& contact : island.contacts)
+      for (const int number : {contact.body_a, contact.body_b}) {
+        const Body& body = world_.bodies[number];
+        if (!world_.yields(number) || body.asleep || body.supported || is_still(body)) return false;
+      }
+    return true;
+  }
+
+  // Adds the kinematic bodies that move into a contact; `lies` becomes false if one moves there at all.
+  void stop_pushers(const lcp::Contact& contact, double now, std::vector<int>& stopped, bool& lies) const {
+    for (const int body : {contact.body_a, contact.body_b}) {
+      if (!world_.carries(body)) continue;
+      lies = false;
+      const double towards_b = contact.normal.dot(world_.state_at(body, now).velocity_at(contact.point));
+      const bool into = body == contact.body_a ? towards_b > 0 : towards_b < 0;
+      if (into && std::find(stopped.begin(), stopped.end(), body) == stopped.end()) stopped.push_back(body);
+    }
+  }
+
   void open(int a, int b, double now) {
     ++report_.pairs;
     if (is_sensor_pair(world_, a, b) && sight(a, b, now)) return;  // until one of them takes a new course
@@ -250,9 +281,10 @@ void Stepper::solve(const Island& island, double now) {
     for (std::size_t i = 0; i < island.bodies.size(); ++i) {
       const Body& body = world_.bodies[island.bodies[i]];
       const RigidBody& state = local.states[i];
-      const bool same = body.held && state.velocity == body.state.velocity && state.spin == body.state.spin;
+      const bool same =
+          is_still(body) && state.velocity == body.state.velocity && state.spin == body.state.spin;
       if (same) continue;  // a held body that was not hit stays held
-      if (body.held) report_.lost_time = std::max(report_.lost_time, now - body.time);
+      if (body.held) lose(now - body.time);
       changed.push_back(island.bodies[i]);
     }
   if (world_.rest_speed > 0 && world_.effects.gravity) support(local, impact.impulses, now);
@@ -317,6 +349,8 @@ StepReport step(World& world, double dt, const Listeners& listeners) {
     world.carry(body, dt, 0);
     b.was_held = b.held;
     b.held = false;
+    b.group = -1;
+    b.group_velocity = Vec3::Zero();
   }
   report.step_ns = watch.ns();
   report.ccd_ns = report.step_ns - report.lcp_ns;

@@ -99,9 +99,13 @@ void turn_on(double spin_drag, double elapsed, double& start, double& rate) {
   if (spin_drag > 0) rate *= std::exp(-spin_drag * elapsed);
 }
 
-// With the velocities that its points have: none if it is held, those of steering included.
+}  // namespace
+
 RigidBody as_it_moves(const Body& body, RigidBody state) {
-  if (body.held) state.velocity = state.spin = Vec3::Zero();
+  if (body.held) {
+    state.velocity = body.group_velocity;
+    state.spin = Vec3::Zero();
+  }
   if (body.steered) {
     state.velocity += body.steer_velocity;
     state.spin += body.steer_spin;
@@ -109,13 +113,16 @@ RigidBody as_it_moves(const Body& body, RigidBody state) {
   return state;
 }
 
-}  // namespace
-
 ca::Motion World::motion(int body, double time) const {
   const Body& b = bodies[body];
   const RigidBody state = state_at(body, time);
   ca::Motion motion(as_it_moves(b, state));
-  if (b.held || b.asleep || state.is_static()) return motion;
+  if ((b.held && b.group < 0) || b.asleep || state.is_static()) return motion;
+  if (b.held) {  // as the group moves
+    motion.velocity = course(body, time).velocity;
+    add_forces(b, motion);
+    return motion;
+  }
   add_effects(body, motion);
   if (b.free && !b.steered) turn_on(motion.spin_drag, time - b.time, motion.free_start, motion.free_rate);
   return motion;
@@ -148,6 +155,12 @@ RigidBody World::state_at(int body, double time) const {
   const Body& b = bodies[body];
   ca::Motion motion(as_it_moves(b, state));
   if (yields(body) && !b.held && !b.asleep) add_effects(body, motion);
+  if (b.held && b.group >= 0) {  // forces change the velocities that it keeps, too
+    add_forces(b, motion);
+    ca::Motion kept(state);
+    add_forces(b, kept);
+    state.velocity = kept.velocity_at(elapsed);
+  }
   state.position = motion.position_at(elapsed);
   if (!b.held) {
     state.velocity = motion.velocity_at(elapsed);
@@ -171,6 +184,8 @@ void World::set_course(int body, const RigidBody& state, double time) {
   b.state = state;
   b.time = time;
   b.held = b.asleep = b.steered = false;
+  b.group = -1;
+  b.group_velocity = Vec3::Zero();
   if (!effects.gyroscopic || !yields(body)) return;
   ca::Motion motion(state);
   motion.turn_freely(principal[b.shape]);
@@ -182,7 +197,9 @@ void World::set_course(int body, const RigidBody& state, double time) {
 void World::carry(int body, double time, double name) {
   Body& b = bodies[body];
   const double elapsed = time - b.time;
+  const Vec3 group_velocity = b.group >= 0 ? course(body, time).velocity : Vec3(Vec3::Zero());
   b.state = state_at(body, time);
+  b.group_velocity = group_velocity;
   if (b.free && b.steered) {  // from here on it turns freely again
     ca::Motion motion(b.state);
     motion.turn_freely(principal[b.shape]);
@@ -201,7 +218,7 @@ ca::Motion World::course(int body, double time) const {
   path.position = b.state.position;
   if (stays(body)) return path;
   path.velocity = as_it_moves(b, b.state).velocity;
-  if (yields(body) && !b.held && !b.asleep) add_forces(b, path);
+  if (yields(body) && (!b.held || b.group >= 0) && !b.asleep) add_forces(b, path);
   const double elapsed = time - b.time;
   const Vec3 position = path.position_at(elapsed), velocity = path.velocity_at(elapsed);
   path.position = position;

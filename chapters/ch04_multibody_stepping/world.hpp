@@ -25,13 +25,17 @@ struct Body {
   RigidBody state;
   double time = 0;
   int shape = 0;
-  bool held = false;       // stays where it is until the frame's end, with its velocities: see step()
-  bool sensor = false;     // reports contacts, resolves none
-  bool asleep = false;     // at rest until something hits it: see sleep.hpp
-  bool was_held = false;   // until the end of the last frame
-  bool supported = false;  // for this frame: what it lies on cancels gravity (chapter 5)
-  bool lies = false;       // held, and on nothing that moves
-  bool foreseen = false;   // its way through the frame is proved, whatever comes near it (chapter 5)
+  // Held until the frame's end, see step(): it keeps its velocities, but stays where it is; or, one of a group that touches
+  // nothing fixed, moves with the group's centre of mass.
+  bool held = false;
+  int group = -1;  // the group's number: that of one of its bodies; -1: it stays where it is
+  Vec3 group_velocity = Vec3::Zero();  // m/s, of the group's centre of mass, at `time`
+  bool sensor = false;                 // reports contacts, resolves none
+  bool asleep = false;                 // at rest until something hits it: see sleep.hpp
+  bool was_held = false;               // until the end of the last frame
+  bool supported = false;              // for this frame: what it lies on cancels gravity (chapter 5)
+  bool lies = false;                   // held, and on nothing that moves
+  bool foreseen = false;  // its way through the frame is proved, whatever comes near it (chapter 5)
   // Chapter 5: it is moved by this, too, until it takes a new course; no velocity knows of it.
   bool steered = false;
   Vec3 steer_velocity = Vec3::Zero(), steer_spin = Vec3::Zero();  // m/s, rad/s
@@ -49,6 +53,9 @@ struct Sighting {
   double gap = 0;                                    // m; negative if they overlap
   double speed = 0;                                  // m/s, n.(v_body - v_sensor) there
 };
+
+// A body's state with the velocities that its points have: if it is held, its group's or none; those of steering included.
+RigidBody as_it_moves(const Body& body, RigidBody state);
 
 struct World {
   std::vector<Shape> shapes;
@@ -89,9 +96,14 @@ struct World {
   // Whether it stays where it is until the frame's end, if nothing hits it.
   bool stays(int body) const {
     const Body& b = bodies[body];
-    if ((b.held || b.asleep) && !b.steered) return true;
+    if (((b.held && b.group < 0) || b.asleep) && !b.steered) return true;
     const bool falls = !b.state.is_static() && effects.gravity && !b.supported;
-    return !falls && !b.steered && b.state.velocity.isZero(0) && b.state.spin.isZero(0);
+    const RigidBody moving = as_it_moves(b, b.state);
+    return !falls && moving.velocity.isZero(0) && moving.spin.isZero(0);
+  }
+  // Whether two bodies are held as parts of one group: they do not move relative to each other.
+  bool held_together(int a, int b) const {
+    return bodies[a].group >= 0 && bodies[a].group == bodies[b].group;
   }
   // Whether an impulse at the body's surface can turn it, or its spin moves its surface along the normal.
   bool turns(int body) const { return effects.arms || ball_radius[bodies[body].shape] == 0; }
@@ -177,8 +189,9 @@ struct Listeners {
 // again; and so on until no contact is left in the frame. Guarantee: at no time do two bodies come nearer
 // than a positive gap if they started so (those that start touching or overlapping by rounding come no nearer
 // than 64 rounding terms of it). Where impacts pile up so that a pair has less than a hundredth of the
-// tolerance left to spend, its island is held until the frame's end: it stays where it is, keeps its
-// velocities, and the time that it did not live is reported as lost_time. Throws NumericalFailure if an LCP
+// tolerance left to spend, its island is held until the frame's end, and keeps its velocities: it stays where it is, or,
+// if it touches nothing fixed, goes on with its centre of mass, without turning, so that only motion relative to that is
+// lost. The time that it did not live is reported as lost_time. Throws NumericalFailure if an LCP
 // cannot be solved, or a search reaches its limit without progress; std::invalid_argument for a dt that is
 // not finite and > 0, and then nothing has moved.
 StepReport step(World& world, double dt, const Listeners& listeners = {});

@@ -1,0 +1,53 @@
+// Two bodies that slide past each other: the plane between them.
+//
+// Where two boxes of a floor are flush, something that slides over the seam comes as near to the next box's side as to its
+// top. The nearest points do not tell the two apart: within the tolerance their normal may point anywhere between the two
+// faces' normals. But convex bodies meet only if every plane between them closes. So a pair that is near is asked for the
+// faces beside its nearest points: if one of them parts the two bodies, and they do not close in along it, it is this plane
+// that counts.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "ch01_convex_advancement/query.hpp"
+#include "ch02_hull_hierarchy/model_distance.hpp"
+
+namespace fc::world {
+
+// Two models on their way, and their pose at the time (s) at which they are looked at.
+struct NearPair {
+  const hulls::Model& a;
+  const ca::Motion& motion_a;
+  const hulls::Model& b;
+  const ca::Motion& motion_b;
+  double time;
+  ca::PairPose pose{motion_a, motion_b, time};
+};
+
+// Places on the two surfaces that are near each other: m, world axes, from A's centre of mass.
+struct Witnesses {
+  Vec3 point_a, point_b;
+};
+
+// How fast A comes nearer to B along a unit normal, at places of theirs (m/s).
+double closing_speed(const NearPair& pair, const Vec3& normal, const Witnesses& at);
+
+// The unit normals (world, from A to B) of the faces beside two features; and of those through the nearest points of two
+// leaves.
+std::vector<Vec3> faces_beside(const NearPair& pair, const ca::FeaturePair& features);
+std::vector<Vec3> faces_beside(const NearPair& pair, const hulls::LeafPair& leaves);
+
+// That of the normals along which the bodies close in slowest, and no faster than `fastest` (m/s), of those that part them:
+// the gap of the two hulls along it is no less than `least` (m). None if there is no such plane.
+std::optional<Vec3> slowest_plane(const NearPair& pair, const std::vector<Vec3>& normals, const Witnesses& at,
+                                  double fastest, double least);
+
+// How long, in s from pair.time on and up to `interval`, the gap along a plane that does not turn (normal: unit, world, from A
+// to B) surely stays at `target` (m) or above: conservative advancement (chapter 1) along one normal.
+double clear_along(const NearPair& pair, const Vec3& normal, double target, double interval);
+
+// The certified gap of the two hulls along a normal (m).
+double gap_along(const NearPair& pair, const Vec3& normal);
+
+}  // namespace fc::world
