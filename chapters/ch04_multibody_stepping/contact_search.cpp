@@ -100,6 +100,20 @@ double least_gap(const NearPair& pair) {
   return -kRoundingTerms * ca::rounding_term(pair.a.whole(), pair.b.whole(), pair.pose);
 }
 
+// Gives a contact another normal. Where a rounded shape meets the plane, it does so where its own surface has this normal:
+// a ball's contact stays on the line through its centre, or an impulse would turn it.
+void turn_contact(const NearPair& near, const Vec3& normal, ca::FeaturePair& f) {
+  const Vec3 turned = normal - f.normal;
+  f.point_a += near.a.radius * turned;
+  f.point_b -= near.b.radius * turned;
+  f.normal = normal;
+  f.gap = normal.dot(f.point_b - f.point_a);
+  if (near.a.radius > 0)
+    f.point_b = f.point_a + f.gap * normal;
+  else if (near.b.radius > 0)
+    f.point_a = f.point_b - f.gap * normal;
+}
+
 // Contacts of edges and corners may have any normal between those of the faces beside them. They get that of the face
 // along which the bodies close in slowest, if there is one that parts them: see passing_plane.hpp.
 void turn_to_passing_planes(const NearPair& near, const Vec3& origin_a,
@@ -108,10 +122,8 @@ void turn_to_passing_planes(const NearPair& near, const Vec3& origin_a,
     if (f.kind_a == ca::FeatureKind::face || f.kind_b == ca::FeatureKind::face) continue;
     const Witnesses at{f.point_a - origin_a, f.point_b - origin_a};
     const double fastest = closing_speed(near, f.normal, at);
-    if (const auto plane = slowest_plane(near, faces_beside(near, f), at, fastest, least_gap(near))) {
-      f.normal = *plane;
-      f.gap = plane->dot(f.point_b - f.point_a);
-    }
+    if (const auto plane = slowest_plane(near, faces_beside(near, f), at, fastest, least_gap(near)))
+      turn_contact(near, *plane, f);
   }
 }
 

@@ -1,5 +1,6 @@
 // Free bodies of all shapes thrown together, in thousands of scenes: what nothing from outside acts on keeps its momenta and
 // goes where they say, whatever the bodies do to each other. FC_SCENES=1000 runs so many scenes; CI runs a share.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -23,7 +24,9 @@ int scenes_to_run() {
 
 struct Random {
   std::mt19937_64 engine;
-  double operator()(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine); }
+  double operator()(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(engine);
+  }
   double log(double low, double high) { return std::exp((*this)(std::log(low), std::log(high))); }
   int below(int n) { return std::uniform_int_distribution<int>(0, n - 1)(engine); }
   std::string vector(int n, double size) {
@@ -47,7 +50,8 @@ Trial random_trial(unsigned seed) {
   trial.restitution = seed % 3 == 0 ? 0 : seed % 3 == 1 ? random(0, 0.5) : random(0.5, 1);
   trial.dt = random.log(1.0 / 240, 0.1);
   trial.frames = static_cast<int>(std::ceil(1.0 / trial.dt));
-  const std::string ring = std::string(FC_SOURCE_DIR) + "/chapters/ch04_multibody_stepping/scenes/parts/ring.obj";
+  const std::string ring =
+      std::string(FC_SOURCE_DIR) + "/chapters/ch04_multibody_stepping/scenes/parts/ring.obj";
   std::string shapes, bodies;
   const double heaviest = random.log(1, 1e6);
   for (int i = 0; i < count; ++i) {
@@ -63,13 +67,15 @@ Trial random_trial(unsigned seed) {
     shapes += fmt::format("  s{}: {{{}, mass: {}}}\n", i, kinds[kind], random.log(1, heaviest));
     const Vec3 place = 1.1 * (Vec3(i % 3, i / 3 % 3, i / 9) - Vec3(1, 1, 0.5 * (count / 9)));
     const double speed = random(0.3, 3);
-    bodies += fmt::format("  - {{shape: s{}, position: [{}, {}, {}], orientation: {}, velocity: [{}, {}, {}], spin: {}}}\n", i,
-                          place.x(), place.y(), place.z(), random.vector(4, 1), -speed * place.x() + 0.5,
-                          -speed * place.y(), -speed * place.z() + random(-0.2, 0.2), random.vector(3, 5.7));
+    bodies += fmt::format(
+        "  - {{shape: s{}, position: [{}, {}, {}], orientation: {}, velocity: [{}, {}, {}], spin: {}}}\n", i,
+        place.x(), place.y(), place.z(), random.vector(4, 1), -speed * place.x() + 0.5, -speed * place.y(),
+        -speed * place.z() + random(-0.2, 0.2), random.vector(3, 5.7));
   }
-  trial.text = fmt::format("step: {{dt: {}, duration: 1}}\nrestitution: {}\nccd: {{tolerance: {}}}\n{}shapes:\n{}bodies:\n{}",
-                           trial.dt, trial.restitution, random.log(1e-8, 1e-4),
-                           seed % 2 ? "gyroscopic: true\n" : "", shapes, bodies);
+  trial.text = fmt::format(
+      "step: {{dt: {}, duration: 1}}\nrestitution: {}\nccd: {{tolerance: {}}}\n{}shapes:\n{}bodies:\n{}",
+      trial.dt, trial.restitution, random.log(1e-8, 1e-4), seed % 2 ? "gyroscopic: true\n" : "", shapes,
+      bodies);
   return trial;
 }
 
@@ -98,7 +104,8 @@ double deepest(const fc::world::World& world) {
   for (int a = 0; a < static_cast<int>(world.bodies.size()); ++a)
     for (int b = a + 1; b < static_cast<int>(world.bodies.size()); ++b) {
       const fc::ca::PairPose pose(world.motion(a, 0), world.motion(b, 0), 0);
-      const double far = world.shapes[world.bodies[a].shape].reach + world.shapes[world.bodies[b].shape].reach;
+      const double far =
+          world.shapes[world.bodies[a].shape].reach + world.shapes[world.bodies[b].shape].reach;
       if (pose.offset_world.norm() > far) continue;
       const auto gap = fc::hulls::model_distance(world.model_of(a), world.model_of(b), pose, 1e-9, 1e-6);
       depth = std::max(depth, -gap.lower);
@@ -121,7 +128,8 @@ TEST(FreeBodies, KeepMomentaAndGoWhereTheseSay) {
       const Sums now(world);
       ASSERT_LE((now.linear - start.linear).norm(), 1e-11 * start.linear_size) << "frame " << frame;
       const Vec3 centre = (start.moment + frame * trial.dt * start.linear) / start.mass;
-      ASSERT_LE((now.moment / now.mass - centre).norm(), 1e-9) << "frame " << frame << ", lost " << report.lost_time << " s";
+      ASSERT_LE((now.moment / now.mass - centre).norm(), 1e-9)
+          << "frame " << frame << ", lost " << report.lost_time << " s";
       ASSERT_LE(report.momentum_error, 1e-11);
       ASSERT_LE(report.energy_gain, 1e-12 * energy) << "frame " << frame;
       if (world.effects.gyroscopic) {
