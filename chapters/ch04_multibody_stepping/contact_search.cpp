@@ -120,7 +120,7 @@ void turn_to_passing_planes(const NearPair& near, const Vec3& origin_a,
                             std::vector<ca::FeaturePair>& features) {
   for (ca::FeaturePair& f : features) {
     if (f.kind_a == ca::FeatureKind::face || f.kind_b == ca::FeatureKind::face) continue;
-    const Witnesses at{f.point_a - origin_a, f.point_b - origin_a};
+    const Witnesses at = near.cores(f.point_a - origin_a, f.point_b - origin_a, f.normal);
     const double fastest = closing_speed(near, f.normal, at);
     if (const auto plane = slowest_plane(near, faces_beside(near, f), at, fastest, least_gap(near)))
       turn_contact(near, *plane, f);
@@ -184,9 +184,9 @@ double reported_gap(const World& world, const Pair& pair, const ca::PairPose& po
 
 // Whether two bodies that are near each other pass without meeting, from near.time on for `interval` seconds.
 bool passes(const World& world, const NearPair& near, double interval, const hulls::LeafPair& nearest) {
-  const Witnesses at{nearest.gjk.point_a, nearest.gjk.point_b};
+  const Witnesses at = near.cores(nearest.gjk.point_a, nearest.gjk.point_b, nearest.gjk.normal);
   const double least = least_gap(near), fastest = world.keep() / interval;
-  const auto plane = slowest_plane(near, faces_beside(near, nearest), at, fastest, least);
+  const auto plane = slowest_plane(near, faces_beside(near, nearest, at), at, fastest, least);
   if (!plane) return false;
   const double gap = gap_along(near, *plane);
   const double target = gap > -least ? 0.5 * std::min(gap, world.keep()) : gap + least;

@@ -55,7 +55,7 @@ void add_faces(const hulls::Model& model, int leaf, const Vec3& point, Normals n
   const hulls::FeatureMesh& mesh = model.mesh;
   const auto look = [&](int t) {
     const double off = mesh.normals[t].dot(point - mesh.vertices[mesh.triangles[t][0]]);
-    if (std::abs(off) <= model.radius + kOnFace * model.reach) normals.add(mesh.normals[t]);
+    if (std::abs(off) <= kOnFace * model.reach) normals.add(mesh.normals[t]);
   };
   const int triangle = model.boxes.leaf_item[leaf];
   if (triangle < 0)
@@ -85,12 +85,11 @@ std::vector<Vec3> faces_beside(const NearPair& pair, const ca::FeaturePair& feat
   return normals;
 }
 
-std::vector<Vec3> faces_beside(const NearPair& pair, const hulls::LeafPair& leaves) {
+std::vector<Vec3> faces_beside(const NearPair& pair, const hulls::LeafPair& leaves, const Witnesses& at) {
   std::vector<Vec3> normals;
   const ca::PairPose& pose = pair.pose;
-  add_faces(pair.a, leaves.a, pose.rotation_a.transpose() * leaves.gjk.point_a,
-            {pose.rotation_a, 1, normals});
-  add_faces(pair.b, leaves.b, pose.rotation_b.transpose() * (leaves.gjk.point_b - pose.offset_world),
+  add_faces(pair.a, leaves.a, pose.rotation_a.transpose() * at.point_a, {pose.rotation_a, 1, normals});
+  add_faces(pair.b, leaves.b, pose.rotation_b.transpose() * (at.point_b - pose.offset_world),
             {pose.rotation_b, -1, normals});
   return normals;
 }

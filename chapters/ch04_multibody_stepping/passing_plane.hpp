@@ -15,6 +15,12 @@
 
 namespace fc::world {
 
+// Places on the two cores that are near each other: m, world axes, from A's centre of mass. (The ball that rounds a core has
+// no direction: turning does not bring it nearer.)
+struct Witnesses {
+  Vec3 point_a, point_b;
+};
+
 // Two models on their way, and their pose at the time (s) at which they are looked at.
 struct NearPair {
   const hulls::Model& a;
@@ -23,11 +29,11 @@ struct NearPair {
   const ca::Motion& motion_b;
   double time;
   ca::PairPose pose{motion_a, motion_b, time};
-};
 
-// Places on the two surfaces that are near each other: m, world axes, from A's centre of mass.
-struct Witnesses {
-  Vec3 point_a, point_b;
+  // Of places on the two surfaces, with the normal there (unit, world, from A to B).
+  Witnesses cores(const Vec3& point_a, const Vec3& point_b, const Vec3& normal) const {
+    return {point_a - a.radius * normal, point_b + b.radius * normal};
+  }
 };
 
 // How fast A comes nearer to B along a unit normal, at places of theirs (m/s).
@@ -36,7 +42,7 @@ double closing_speed(const NearPair& pair, const Vec3& normal, const Witnesses& 
 // The unit normals (world, from A to B) of the faces beside two features; and of those through the nearest points of two
 // leaves.
 std::vector<Vec3> faces_beside(const NearPair& pair, const ca::FeaturePair& features);
-std::vector<Vec3> faces_beside(const NearPair& pair, const hulls::LeafPair& leaves);
+std::vector<Vec3> faces_beside(const NearPair& pair, const hulls::LeafPair& leaves, const Witnesses& at);
 
 // That of the normals along which the bodies close in slowest, and no faster than `fastest` (m/s), of those that part them:
 // the gap of the two hulls along it is no less than `least` (m). None if there is no such plane.

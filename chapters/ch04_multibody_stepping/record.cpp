@@ -263,7 +263,8 @@ void summarize(const Scene& scene, const World& world, const std::vector<StepRep
   const auto meshes = std::count_if(world.bodies.begin(), world.bodies.end(), [&](const Body& body) {
     return world.shapes[body.shape].kind == Shape::Kind::mesh;
   });
-  if (scene.name == "two_bunnies" && meshes >= 2 && with_contact > 0) {  // the demo: the paper's row (its section 5)
+  if (scene.name == "two_bunnies" && meshes >= 2 &&
+      with_contact > 0) {  // the demo: the paper's row (its section 5)
     const auto ms = [](std::int64_t ns) { return 1e-6 * static_cast<double>(ns); };
     summary.add_note("paper: contacts in a frame with contact",
                      "a few to dozens (two bunnies, 70,000 triangles)");
