@@ -24,9 +24,9 @@ class Summary {
     Kind kind = Kind::value;
   };
   struct Counter {
-    std::string stage;  // a stage of the pipeline or an effect
-    std::int64_t runs;  // how often it ran
-    std::int64_t ns;    // what it cost
+    std::string stage;      // a stage of the pipeline or an effect
+    std::int64_t runs = 0;  // how often it ran
+    std::int64_t ns = 0;    // what it cost
   };
 
   void add(std::string name, Cell value, std::string unit = "") {
@@ -41,7 +41,8 @@ class Summary {
     entries_.push_back({std::move(name), std::move(text), "", Kind::note});
   }
   void counter(std::string stage, std::int64_t runs, std::int64_t ns) {
-    counters_.push_back({std::move(stage), runs, ns});
+    Counter& added = counters_.emplace_back();  // a Counter that is moved in makes GCC 12 warn of its string
+    added = {std::move(stage), runs, ns};
   }
 
   const std::vector<Entry>& entries() const { return entries_; }
