@@ -35,6 +35,8 @@ struct MeshReport {
   bool inside_out = false;      // a component faced inwards without being a cavity, and was reversed
   int reversed_components = 0;  // how many
   bool solid = false;           // closed and consistently oriented, with a volume: it has an inside
+  int overlapping = 0;          // components of a solid that share volume with another: it counts in each
+  std::string left_out;         // what load_mesh did not read
 
   // One line for people: "69,666 triangles, 34,835 vertices, closed, consistently oriented, 1 component", or
   // the defects.
@@ -46,14 +48,16 @@ struct PreparedMesh {
   MeshReport report;
 };
 
-// Reads Wavefront OBJ, STL (ASCII or binary) or PLY (ASCII or binary, both byte orders), by the file's
-// extension. Polygons are split into triangles that cover them, concave ones too; colours, normals and other
-// extras are passed over. What the file holds is returned as it stands: an STL file repeats each vertex, and
-// nothing is merged or turned yet. Throws InputError with the file's name and, in text formats, line and
-// column: not found, a folder, empty, unreadable, truncated, an index out of range, a coordinate that is not
-// finite or beyond 1e30 m, no triangles. Memory is reserved only for what the file can hold, whatever its
-// header announces.
-TriangleMesh load_mesh(const std::filesystem::path& file);
+// Reads Wavefront OBJ, STL (ASCII or binary) or PLY (ASCII or binary, both byte orders, faces or triangle
+// strips), by the file's extension. A text may begin with a byte order mark and end its lines with \n, \r\n or
+// \r. Polygons are split into triangles that cover them, concave ones too; colours, normals and other extras
+// are passed over. What the file holds is returned as it stands: an STL file repeats each vertex, and nothing
+// is merged or turned yet. Into `left_out` goes what else has a place in space, such as "3 lines" of an OBJ
+// file; it is empty otherwise. Throws InputError with the file's name and, in text formats, line and column:
+// not found, a folder, empty, unreadable, truncated, another format than its name says, a line that begins
+// with an unknown word, an index out of range, a coordinate that is not finite or beyond 1e30 m, no triangles.
+// Memory is reserved only for what the file can hold, whatever its header announces.
+TriangleMesh load_mesh(const std::filesystem::path& file, std::string* left_out = nullptr);
 
 // Makes a mesh ready for collision: merges vertices at equal positions (exactly equal; -0 equals 0), drops
 // degenerate and duplicate triangles and unused vertices, turns what is inside out, and reports. The order of
@@ -72,7 +76,8 @@ TriangleMesh load_mesh(const std::filesystem::path& file);
 // component that then still has a negative volume is a cavity if its bounding box lies in that of an outward
 // one, and stays; if not, it cannot be a cavity, and is reversed. The limit: an inside-out component beside,
 // not inside, another one but within that one's bounding box (a ball in the crook of an L) is taken for a
-// cavity. Meshes that cross themselves are not detected.
+// cavity. A component that crosses itself is not detected; components that overlap are counted, and the volume
+// that they share is mass in each of them.
 PreparedMesh prepare_mesh(const TriangleMesh& mesh);
 
 // Signed volume of a closed mesh in m^3 (positive if its triangles face outward): sum of a.(b x c)/6.

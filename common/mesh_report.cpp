@@ -47,6 +47,9 @@ std::string MeshReport::text() const {
   add_defect(degenerate_triangles, "degenerate triangle removed", "degenerate triangles removed");
   add_defect(duplicate_triangles, "duplicate triangle removed", "duplicate triangles removed");
   add_defect(reversed_components, "inside-out component turned", "inside-out components turned");
+  if (overlapping > 0)
+    add(grouped(overlapping) + " closed parts overlap (the shared volume is counted in each)");
+  if (!left_out.empty()) add(left_out + " left out");
   return line;
 }
 

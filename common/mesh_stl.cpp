@@ -1,11 +1,12 @@
 // STL: triangles as three positions each, in text or binary. The normals in the file are not used: the order
-// of the corners says which side is outside.
+// of the corners says which side is outside. Keywords of a text may be in capitals.
+#include <algorithm>
 #include <cctype>
 #include <cstdint>
-#include <cstring>
 
 #include "common/byte_order.hpp"
 #include "common/mesh_formats.hpp"
+#include "common/text.hpp"
 
 namespace fc::mesh_formats {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 constexpr std::size_t kHeaderBytes = 80 + 4;           // free text, number of triangles
 constexpr std::size_t kTriangleBytes = 4 * 3 * 4 + 2;  // normal, three corners, attribute
 
-TriangleMesh read_binary(const MeshFile& file) {
+ReadMesh read_binary(const InputFile& file) {
   const std::size_t size = file.bytes.size();
   if (size < kHeaderBytes)
     file.fail("is too short for an STL mesh: it is truncated or of another format; export the mesh again");
@@ -40,67 +41,100 @@ TriangleMesh read_binary(const MeshFile& file) {
     const int first = static_cast<int>(3 * t);
     mesh.triangles.push_back({first, first + 1, first + 2});
   }
-  return mesh;
+  return {std::move(mesh), ""};
+}
+
+bool same_word(std::string_view found, std::string_view keyword) {
+  return std::equal(found.begin(), found.end(), keyword.begin(), keyword.end(),
+                    [](char f, char k) { return std::tolower(static_cast<unsigned char>(f)) == k; });
 }
 
 void expect(TextCursor& cursor, std::initializer_list<const char*> words) {
   for (const char* expected : words) {
     const std::string_view found = cursor.word_across_lines();
-    if (found == expected) continue;
+    if (same_word(found, expected)) continue;
     cursor.fail(found.empty() ? std::string("the file ends where '") + expected +
                                     "' should stand: it is truncated; export the mesh again"
-                              : std::string("expected '") + expected + "', found " + quoted(found) +
+                              : std::string("expected '") + expected + "', found " + in_quotes(found) +
                                     "; export the mesh again");
   }
 }
 
-TriangleMesh read_ascii(const MeshFile& file) {
+// The rest of a line "solid NAME" or "endsolid NAME". Where the file has no line ends, triangles would be
+// taken for a name.
+void pass_over_name(TextCursor& cursor) {
+  bool after_facet = false;
+  for (std::string_view word = cursor.word(); !word.empty(); word = cursor.word()) {
+    if (after_facet && same_word(word, "normal"))
+      cursor.fail("'facet normal' stands in the line of the solid's name; begin a new line before it");
+    after_facet = same_word(word, "facet");
+  }
+}
+
+// The three numbers of a normal, which is not used: "-nan(ind)" and "1.#QNAN" stand for it in files of
+// programs that divided by zero.
+void pass_over_normal(TextCursor& cursor) {
+  expect(cursor, {"normal"});
+  for (const char* what : {"the normal's x", "the normal's y", "the normal's z"}) {
+    const std::string_view word = cursor.word();
+    if (word.find('#') == std::string_view::npos) cursor.number(word, what);
+  }
+}
+
+void read_facet(TextCursor& cursor, TriangleMesh& mesh) {
+  pass_over_normal(cursor);
+  expect(cursor, {"outer", "loop"});
+  const int first = static_cast<int>(mesh.vertices.size());
+  for (int i = 0; i < 3; ++i) {
+    expect(cursor, {"vertex"});
+    const double x = checked_coordinate(cursor.number("the x coordinate"), cursor);
+    const double y = checked_coordinate(cursor.number("the y coordinate"), cursor);
+    const double z = checked_coordinate(cursor.number("the z coordinate"), cursor);
+    mesh.vertices.emplace_back(x, y, z);
+  }
+  expect(cursor, {"endloop", "endfacet"});
+  mesh.triangles.push_back({first, first + 1, first + 2});
+}
+
+ReadMesh read_ascii(InputFile& file) {
+  make_text(file, "an STL mesh in text");
   TextCursor cursor(file);
   TriangleMesh mesh;
-  cursor.next_line();  // "solid", a name
-  bool ended = false;
+  bool in_solid = false;
   for (std::string_view word = cursor.word_across_lines(); !word.empty(); word = cursor.word_across_lines()) {
-    if (word == "endsolid" ||
-        word == "solid") {  // the rest of the line is a name; several solids make one mesh
-      ended = word == "endsolid";
-      cursor.next_line();
-      continue;
+    if (same_word(word, in_solid ? "endsolid" : "solid")) {  // several solids make one mesh
+      in_solid = !in_solid;
+      pass_over_name(cursor);
+    } else if (in_solid && same_word(word, "facet")) {
+      read_facet(cursor, mesh);
+    } else {
+      cursor.fail(std::string(in_solid ? "expected 'facet' or 'endsolid', found "
+                                       : "expected 'solid' or the end of the file, found ") +
+                  in_quotes(word) + "; export the mesh again");
     }
-    if (word != "facet") {
-      cursor.fail("expected 'facet' or 'endsolid', found " + quoted(word) + "; export the mesh again");
-    }
-    cursor.next_line();  // the normal
-    expect(cursor, {"outer", "loop"});
-    const int first = static_cast<int>(mesh.vertices.size());
-    for (int i = 0; i < 3; ++i) {
-      expect(cursor, {"vertex"});
-      const double x = cursor.coordinate("the x coordinate");
-      const double y = cursor.coordinate("the y coordinate");
-      const double z = cursor.coordinate("the z coordinate");
-      mesh.vertices.emplace_back(x, y, z);
-    }
-    expect(cursor, {"endloop", "endfacet"});
-    mesh.triangles.push_back({first, first + 1, first + 2});
-    ended = false;
   }
-  if (!ended) cursor.fail("the file ends without 'endsolid': it is truncated; export the mesh again");
+  if (in_solid) cursor.fail("the file ends without 'endsolid': it is truncated; export the mesh again");
   if (mesh.triangles.empty()) file.fail("has no triangles; export the mesh again");
-  return mesh;
+  return {std::move(mesh), ""};
 }
 
 // Many programs write binary files whose free text begins with "solid", so that word alone decides nothing.
-// But the number of triangles of a binary file has a zero byte (up to 16 million of them), and a text has
-// none.
-bool is_ascii(const MeshFile& file) {
-  const std::string& s = file.bytes;
-  std::size_t start = 0;
-  while (start < s.size() && std::isspace(static_cast<unsigned char>(s[start]))) ++start;
-  return s.compare(start, 5, "solid") == 0 && s.find('\0') == std::string::npos;
+// The size that belongs to the number of triangles does; that number has a zero byte (up to 16 million of
+// them), so that where it does not fit, a file without one is a text.
+bool is_ascii(const InputFile& file) {
+  const auto kind = file_kind(file.bytes);
+  const bool is_binary =
+      file.bytes.size() >= kHeaderBytes &&
+      file.bytes.size() == kHeaderBytes + kTriangleBytes * from_bytes<std::uint32_t>(file.bytes.data() + 80,
+                                                                                     ByteOrder::little);
+  if (is_binary) return false;
+  refuse_other_kind(file, "an STL mesh", ".stl");
+  return kind.has_value() || file.bytes.find('\0') == std::string::npos;
 }
 
 }  // namespace
 
-TriangleMesh read_stl(const MeshFile& file) {
+ReadMesh read_stl(InputFile& file) {
   return is_ascii(file) ? read_ascii(file) : read_binary(file);
 }
 

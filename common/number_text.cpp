@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <string>
 
 namespace fc {
@@ -28,7 +29,7 @@ bool names_infinity_or_nan(std::string_view unsigned_text) {
 bool is_decimal(std::string_view unsigned_text) {
   std::string_view rest = unsigned_text;
   const std::size_t before_point = skip_digits(rest);
-  if (before_point > 1 && unsigned_text[0] == '0') return false;
+  const bool may_be_octal = before_point > 1 && unsigned_text[0] == '0';
   std::size_t after_point = 0;
   if (rest.starts_with('.')) {
     rest.remove_prefix(1);
@@ -40,7 +41,7 @@ bool is_decimal(std::string_view unsigned_text) {
     skip_sign(rest);
     if (skip_digits(rest) == 0) return false;
   }
-  return rest.empty();
+  return rest.empty() && !(may_be_octal && before_point == unsigned_text.size());
 }
 
 }  // namespace
@@ -56,6 +57,41 @@ NumberText read_number(std::string_view text, double& value) {
   if (error != std::errc() || !std::isfinite(read)) return NumberText::too_large;
   value = read;
   return NumberText::finite;
+}
+
+bool read_c_number(std::string_view text, double& value) {
+  const std::string_view whole = text;
+  const bool minus = text.starts_with('-');
+  skip_sign(text);
+  if (text.empty() || text[0] == '-' || text[0] == '+') return false;
+  auto format = std::chars_format::general;
+  if (text.size() > 2 && text[0] == '0' && (text[1] == 'x' || text[1] == 'X')) {
+    format = std::chars_format::hex;
+    text.remove_prefix(2);
+    if (text.find_first_of("0123456789abcdefABCDEF.") != 0) return false;
+  }
+  double read = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), read, format);
+  if (error == std::errc::invalid_argument || end != text.data() + text.size()) return false;
+  if (error == std::errc::result_out_of_range) {
+    value = std::strtod(std::string(whole).c_str(), nullptr);  // 0 or infinity
+  } else {
+    value = minus ? -read : read;
+  }
+  return true;
+}
+
+std::errc read_whole_number(std::string_view text, long long& value) {
+  if (text.starts_with('+')) {
+    text.remove_prefix(1);
+    if (text.starts_with('-')) return std::errc::invalid_argument;
+  }
+  long long read = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), read);
+  if (error == std::errc::invalid_argument || end != text.data() + text.size())
+    return std::errc::invalid_argument;
+  if (error == std::errc()) value = read;
+  return error;
 }
 
 }  // namespace fc

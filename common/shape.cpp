@@ -106,9 +106,11 @@ Geometry geometry_of(const HullSpec& hull, const ShapeSpec& spec) {
 
 Geometry geometry_of(const MeshSpec& mesh, const ShapeSpec& spec) {
   require(mesh.scale > 0, spec.geometry_where, called(spec) + ": the scale must be > 0");
-  TriangleMesh loaded = load_mesh(mesh.file);
+  std::string left_out;
+  TriangleMesh loaded = load_mesh(mesh.file, &left_out);
   for (Vec3& v : loaded.vertices) v *= mesh.scale;
   PreparedMesh prepared = prepare_mesh(loaded);
+  prepared.report.left_out = left_out;
   require(!prepared.mesh.triangles.empty(), spec.geometry_where,
           called(spec) + ": every triangle of " + mesh.file.string() +
               " is degenerate; check the file's units and the scale");

@@ -12,20 +12,22 @@ namespace fc {
 struct ReadTable {
   struct Row {
     int line;                        // in the file, 1-based
-    std::vector<std::string> cells;  // as many as the header has, without the blanks around them
+    std::vector<std::string> cells;  // as many as the header has, without the blanks and quotes around them
+    std::vector<int> columns;        // where each begins in its line, 1-based
   };
 
   std::string file;
-  std::vector<Row> rows;  // empty lines are passed over
+  std::vector<Row> rows;  // lines without a word are passed over
 
   // Where a cell starts.
   SourceMark mark(const Row& row, int column) const;
-  // The cell as a number, which std::from_chars reads. Throws InputError if it is none, or not finite.
+  // The cell as a number, in any form that C's strtod reads. Throws InputError if it is none, or not finite.
   double number(const Row& row, int column) const;
 };
 
-// Reads a table whose header must be the given one. Throws InputError for a file that cannot be read, another
-// header, or a row with another number of cells.
+// Reads a table whose header must be the given one: a text with any line ends, a byte order mark or none.
+// Throws InputError for a file that cannot be read or is no text, another header (naming the first name that
+// differs), a row with another number of cells, or a quote that does not end in its cell.
 ReadTable read_table(const std::filesystem::path& file, const std::string& header);
 
 }  // namespace fc

@@ -1,9 +1,8 @@
 // Reading scene files as text, and changing one value of a tree (--set).
 #include <algorithm>
 #include <charconv>
-#include <fstream>
-#include <system_error>
 
+#include "common/input_file.hpp"
 #include "common/text.hpp"
 #include "common/yaml_tree.hpp"
 
@@ -86,22 +85,10 @@ YamlPtr with_entry(const YamlNode& map, std::string_view path, const YamlPtr& va
 }  // namespace
 
 std::string read_text_file(const std::filesystem::path& file) {
-  const SourceMark where{file.string()};
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status)) throw InputError(where, "no such file; check the path");
-  if (std::filesystem::is_directory(status)) throw InputError(where, "is a folder; name a scene file in it");
-  const bool readable_kind = std::filesystem::is_regular_file(status) || std::filesystem::is_fifo(status);
-  std::ifstream stream(file, std::ios::binary);
-  if (!readable_kind || !stream) throw InputError(where, "cannot be opened; check its permissions");
-
-  std::string text;
-  char block[65536];
-  while (stream.read(block, sizeof block) || stream.gcount() > 0) {
-    text.append(block, static_cast<std::size_t>(stream.gcount()));
-    if (text.size() > largest_file)
-      throw InputError(where, "is larger than 64 MiB; a scene is a short text file");
-  }
+  InputFile input = read_input_file(file, "a scene", largest_file);
+  refuse_other_kind(input, "a scene");
+  std::string& text = input.bytes;
+  unify_text(text);
   if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
     throw InputError({file.string(), 1, 1}, "the file is empty; write a scene into it");
   }
@@ -112,7 +99,7 @@ std::string read_text_file(const std::filesystem::path& file) {
     throw InputError({file.string(), static_cast<int>(line), static_cast<int>(binary - line_start) + 1},
                      "not text but binary data; a scene is YAML in UTF-8");
   }
-  return text;
+  return std::move(text);
 }
 
 YamlPtr with_value(const YamlPtr& root, std::string_view path, const YamlPtr& value,

@@ -51,7 +51,8 @@ struct YamlNode {
 // Throws InputError at the node.
 [[noreturn]] void refuse(const YamlPlace& place, const std::string& message);
 
-// Reads a whole text file; refuses a missing, empty, binary or oversized one, and a folder.
+// Reads a whole text file, with \n for every line end and no byte order mark; refuses a missing, empty, binary or
+// oversized one, and a folder.
 std::string read_text_file(const std::filesystem::path& file);
 
 // Parses one document. Refuses wrong syntax, a key given twice, tags, and nesting beyond any scene's need. Of

@@ -275,10 +275,10 @@ TEST(Replay, BadInputIsOneLine) {
   };
   expect_bad_row("0,1,x,1,0,0,1,1,1", "certificate.csv:3:5: \"x\" is not a finite number");
   expect_bad_row("0,1,0.5,1,0,0,inf,1,1", "certificate.csv:3:15: \"inf\" is not a finite number");
-  expect_bad_row("0,1,0.5", "certificate.csv:3:1: 3 cells");
+  expect_bad_row("0,1,0.5", "certificate.csv:3:5: 3 cells");
   expect_bad_row("7,0,0.5,1,0,0,1,1,1", "certificate.csv:3:1: there is no query 7");
   write(folder / "certificate.csv", {"query,k"});
-  expect_bad(replayed(kSpinningBox, folder), "certificate.csv:1:1: the header must be");
+  expect_bad(replayed(kSpinningBox, folder), "certificate.csv:1:8: 't [s]' is missing; the header must be");
   std::filesystem::remove(folder / "certificate.csv");
   expect_bad(replayed(kSpinningBox, folder), "certificate.csv: cannot be read");
   expect_bad(replayed(folder / "none.yaml", folder), "none.yaml");

@@ -244,7 +244,7 @@ TEST(HierarchyReplayProgram, BadInputIsOneLine) {
   expect_bad_row("0,1,x,1,0,1", "5: \"x\" is not a finite number");
   expect_bad_row("0,1,0.5,1,0,1", "5: must be a whole number");
   expect_bad_row("0,1,0,-1,0,1", "7: must be a whole number");
-  expect_bad_row("0,1,0,1", "1: 4 cells");
+  expect_bad_row("0,1,0,1", "7: 4 cells");
   expect_bad_row("7,0,0,1,0,1", "1: there is no query 7");
   write(folder / "certificate_leaves.csv", honest);
   std::filesystem::remove(folder / "certificate.csv");
