@@ -11,6 +11,7 @@
 #include <unordered_map>
 
 #include "common/exact_collinear.hpp"
+#include "common/mesh_overlap.hpp"
 
 namespace fc {
 namespace {
@@ -317,6 +318,7 @@ PreparedMesh prepare_mesh(const TriangleMesh& mesh) {
   report.one_sided = topology.one_sided;
   report.components = topology.components;
   report.solid = topology.closed && !out.triangles.empty() && orient_solid(out, topology, report);
+  if (report.solid) report.overlapping = count_overlapping(out, topology.component, topology.components);
 
   report.degenerate_triangles +=
       static_cast<int>(std::erase_if(out.triangles, [&](const Triangle& t) { return without_area(out, t); }));
