@@ -130,7 +130,7 @@ std::optional<FileKind> file_kind(std::string_view bytes) {
   }
   if (is_unmarked_utf16(bytes)) return FileKind{"UTF-16 text", kEncode, ""};
   if (is_3ds(bytes)) return FileKind{"a 3DS model", kExport, ""};
-  if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
+  while (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
   std::string_view text = bytes;
   text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
   for (const Word& w : kWords) {

@@ -53,7 +53,7 @@ void refuse_other_kind(const InputFile& file, const char* wanted, std::string_vi
 }
 
 void unify_text(std::string& text) {
-  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+  while (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // some tools add one to another
   const std::size_t first = text.find('\r');
   if (first == std::string::npos) return;
   std::size_t kept = first;

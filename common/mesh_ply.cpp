@@ -248,8 +248,8 @@ class PlyReader {
 ReadMesh read_ply(InputFile& file) {
   const auto kind = file_kind(file.bytes);
   refuse_other_kind(file, "a PLY mesh", ".ply");
-  const bool marked = file.bytes.starts_with("\xEF\xBB\xBF");
-  if (!kind || file.bytes.compare(marked ? 3 : 0, 3, "ply") != 0)
+  const std::size_t start = std::min(file.bytes.find_first_not_of("\xEF\xBB\xBF"), file.bytes.size());
+  if (!kind || file.bytes.compare(start, 3, "ply") != 0)
     file.fail("does not begin with 'ply', so it is not a PLY mesh; check the file's content");
   const PlyHeader header = read_ply_header(file);
   if (header.encoding != PlyEncoding::text) return PlyReader(BinaryRows(file, header), file, header).read();

@@ -107,7 +107,7 @@ std::size_t header_size(const std::string& bytes) {
 
 PlyHeader read_ply_header(InputFile& file) {
   std::string& rows = file.bytes;
-  if (rows.starts_with("\xEF\xBB\xBF")) rows.erase(0, 3);
+  while (rows.starts_with("\xEF\xBB\xBF")) rows.erase(0, 3);
   const std::size_t size = header_size(rows);
   InputFile header{file.path, rows.substr(0, size)};
   rows.erase(0, size);

@@ -3,17 +3,24 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 namespace fc {
 
 std::string one_line(std::string_view text) {
+  // A byte order mark, a blank without a break, a blank without a width: nobody sees them in a message.
+  constexpr std::array<std::string_view, 3> unseen = {"\xEF\xBB\xBF", "\xC2\xA0", "\xE2\x80\x8B"};
   std::string line;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20 || byte == 0x7f) {
+  std::size_t unseen_end = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    for (std::string_view u : unseen) {
+      if (text.substr(i).starts_with(u)) unseen_end = i + u.size();
+    }
+    if (byte < 0x20 || byte == 0x7f || i < unseen_end) {
       line += fmt::format("\\x{:02x}", byte);
     } else {
-      line += c;
+      line += text[i];
     }
   }
   return line;

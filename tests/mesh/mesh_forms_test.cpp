@@ -111,6 +111,12 @@ TEST(MeshForms, PlacesAreTheSameInEveryForm) {
         << form;
 }
 
+// As where two files were joined.
+TEST(MeshForms, AMarkInTheMiddleIsSeen) {
+  EXPECT_TRUE(refusal("a.obj", "v 0 0 0\n\xEF\xBB\xBFv 1 0 0\n")
+                  .starts_with("a.obj:2:1: unknown keyword '\\xef\\xbb\\xbfv', "));
+}
+
 TEST(MeshForms, WholeNumbers) {
   const std::string obj = with_three(kObj, "3");
   const auto first_face = [&](const std::string& face) {

@@ -18,6 +18,7 @@ inline std::vector<std::pair<std::string, std::string>> forms_of(const std::stri
     for (char c : text) changed += c == '\n' ? cycle[line++ % cycle.size()] : std::string(1, c);
     forms.emplace_back(name, changed);
     forms.emplace_back("a byte order mark and " + name, "\xEF\xBB\xBF" + changed);
+    forms.emplace_back("two byte order marks and " + name, "\xEF\xBB\xBF\xEF\xBB\xBF" + changed);
   }
   return forms;
 }
