@@ -116,7 +116,7 @@ bool is_obj(std::string_view text) {
     text.remove_prefix(std::min(text.find_first_of("\r\n"), text.size()));
   }
   for (const char* word : {"v", "vn", "vt", "o", "g", "mtllib", "usemtl"}) {
-    if (begins_with_word(text, word, true)) return true;
+    if (text.starts_with(word) && begins_with_word(text, word, true)) return true;
   }
   return false;
 }
