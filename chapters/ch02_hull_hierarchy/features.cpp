@@ -270,7 +270,32 @@ void name_feature(const Model& model, int leaf, const std::array<ca::SupportPoin
     }
 }
 
-FeaturePair witness(const Model& a, const Model& b, const LeafPair& pair,
+// The point of a triangle that is nearest to x; both in the triangle's axes.
+Vec3 nearest_on(const ca::Convex& triangle, const Vec3& x) {
+  const ca::GjkResult g = ca::distance(ca::Convex{{&x, 1}}, triangle, ca::PairPose(Pose{}, Pose{}), {});
+  return g.status == ca::GjkResult::Status::separated ? g.point_b : x;
+}
+
+// The witness points of two triangles that touch or overlap are those of a pose in which one was pushed aside. The contact
+// is where the two have a point in common: A's point is carried to the other triangle and back until it stays.
+void meet_in_one_point(const Model& a, const Model& b, const LeafPair& pair, const ca::PairPose& pose,
+                       FeaturePair& w) {
+  constexpr int kRounds = 32;
+  const Pose& b_in_a = pose.b_in_a;
+  w.kind_a = w.kind_b = FeatureKind::face;
+  w.id_a = a.boxes.leaf_item[pair.a];
+  w.id_b = b.boxes.leaf_item[pair.b];
+  for (int round = 0; round < kRounds; ++round) {
+    const Vec3 on_b = nearest_on(b.leaf(pair.b), b_in_a.rotation.transpose() * (w.point_a - b_in_a.position));
+    w.point_b = b_in_a * on_b;
+    const Vec3 back = nearest_on(a.leaf(pair.a), w.point_b);
+    if (back == w.point_a) break;
+    w.point_a = back;
+  }
+  w.gap = w.normal.dot(w.point_b - w.point_a);
+}
+
+FeaturePair witness(const Model& a, const Model& b, const LeafPair& pair, const ca::PairPose& pose,
                     const Mat3& to_a) {  // in A's axes, like the others
   FeaturePair w;
   w.point_a = to_a * pair.gjk.point_a;
@@ -279,6 +304,9 @@ FeaturePair witness(const Model& a, const Model& b, const LeafPair& pair,
   w.gap = std::max(pair.gjk.lower, std::min(pair.gjk.upper, w.normal.dot(w.point_b - w.point_a)));
   name_feature(a, pair.a, pair.gjk.cache.a, pair.gjk.cache.count, w.kind_a, w.id_a);
   name_feature(b, pair.b, pair.gjk.cache.b, pair.gjk.cache.count, w.kind_b, w.id_b);
+  const bool triangles = a.boxes.leaf_item[pair.a] >= 0 && b.boxes.leaf_item[pair.b] >= 0;
+  if (triangles && pair.gjk.status == ca::GjkResult::Status::overlapping)
+    meet_in_one_point(a, b, pair, pose, w);
   return w;
 }
 
@@ -329,7 +357,7 @@ std::vector<ca::FeaturePair> contact_features(const Model& a, const Model& b, co
     if (gap != nullptr) *gap = nearest->gjk.lower;
     // The plane at which advancement stopped must be among the contacts, or the impulse would not stop the
     // approach.
-    const FeaturePair w = witness(a, b, *nearest, to_a);
+    const FeaturePair w = witness(a, b, *nearest, pose, to_a);
     const bool covered = std::any_of(collector.found.begin(), collector.found.end(),
                                      [&](const FeaturePair& f) { return f.normal.dot(w.normal) > 1 - 1e-6; });
     if (!covered) collector.found.push_back(w);

@@ -607,9 +607,9 @@ TEST(MeshHardCase, IdenticalThinPlatesInOnePose) {
   EXPECT_EQ(ask(plate, at(kStill), plate, at(kStill)).status, Status::penetrating_at_start);
 }
 
-// Where the nearest witness points stand in for features, they are called vertex 0 and vertex 0, and are
-// farther apart than their gap says.
-TEST(MeshHardCase, DISABLED_CoincidentSurfacesHaveTrueFeatures) {
+// Where the nearest witness points stand in for features, they lie on the features that they are named after, and are as far
+// apart as their gap says.
+TEST(MeshHardCase, CoincidentSurfacesHaveTrueFeatures) {
   const Body surface(l_prism(), false);
   Random random(5);
   const Quat q = rotation(random);
