@@ -99,7 +99,7 @@ function(fc_add_test name)
     math(EXPR ARG_TIMEOUT "5 * ${ARG_TIMEOUT}")
   endif()
   add_executable(${name} ${ARG_SOURCES})
-  target_link_libraries(${name} PRIVATE fc_settings ${ARG_LINKS} GTest::gtest_main)
+  target_link_libraries(${name} PRIVATE fc_settings ${ARG_LINKS} Eigen3::Eigen fmt::fmt GTest::gtest_main)
   target_precompile_headers(${name} REUSE_FROM fc_precompiled_tests)
   target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR} ${CMAKE_SOURCE_DIR}/chapters)
   target_compile_definitions(${name} PRIVATE FC_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
