@@ -59,8 +59,61 @@ std::vector<Ring> ball(double radius, double bottom, double top) {
 
 }  // namespace
 
+namespace {
+
+void append(DisplayMesh& whole, const DisplayMesh& part) {
+  const int first = static_cast<int>(whole.positions.size() / 3);
+  whole.positions.insert(whole.positions.end(), part.positions.begin(), part.positions.end());
+  whole.normals.insert(whole.normals.end(), part.normals.begin(), part.normals.end());
+  for (const auto& [a, b, c] : part.triangles) whole.triangles.push_back({first + a, first + b, first + c});
+}
+
+// A surface of revolution about another axis than z: drawn about z, then turned.
+DisplayMesh turned_mesh(const Shape& shape) {
+  Shape upright = shape;
+  upright.axis = Vec3::UnitZ();
+  const Vec3 along = shape.axis.dot(shape.core.vertices[0]) * shape.axis;
+  for (Vec3& v : upright.core.vertices) v = Vec3(0, 0, shape.axis.dot(v));
+  DisplayMesh mesh = display_mesh(upright);
+  const Mat3 turn = Quat::FromTwoVectors(Vec3::UnitZ(), shape.axis).toRotationMatrix();
+  const Vec3 aside = shape.core.vertices[0] - along;
+  for (auto* of : {&mesh.positions, &mesh.normals})
+    for (std::size_t i = 0; i < of->size(); i += 3) {
+      Vec3 x = turn * Vec3((*of)[i], (*of)[i + 1], (*of)[i + 2]);
+      if (of == &mesh.positions) x += aside;
+      for (int k = 0; k < 3; ++k) (*of)[i + static_cast<std::size_t>(k)] = static_cast<float>(x[k]);
+    }
+  return mesh;
+}
+
+// Each corner of each triangle for itself, with the triangle's normal: flat beside round parts.
+DisplayMesh with_flat_normals(const DisplayMesh& mesh) {
+  DisplayMesh flat;
+  const auto at = [&](int v) {
+    const std::size_t i = 3 * static_cast<std::size_t>(v);
+    return Vec3(mesh.positions[i], mesh.positions[i + 1], mesh.positions[i + 2]);
+  };
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Vec3 normal = (at(b) - at(a)).cross(at(c) - at(a)).normalized();
+    const int first = static_cast<int>(flat.positions.size() / 3);
+    for (const int v : {a, b, c}) add_vertex(flat, at(v), normal);
+    flat.triangles.push_back({first, first + 1, first + 2});
+  }
+  return flat;
+}
+
+}  // namespace
+
 DisplayMesh display_mesh(const Shape& shape) {
   DisplayMesh mesh;
+  for (const Shape& part : shape.parts) {
+    const DisplayMesh drawn = display_mesh(part);
+    append(mesh, drawn.normals.empty() ? with_flat_normals(drawn) : drawn);
+  }
+  if (!shape.parts.empty()) return mesh;
+  const bool of_revolution =
+      shape.kind == Shape::Kind::sphere || shape.kind == Shape::Kind::capsule || !shape.disks.empty();
+  if (of_revolution && shape.axis != Vec3::UnitZ()) return turned_mesh(shape);
   if (shape.kind == Shape::Kind::sphere || shape.kind == Shape::Kind::capsule) {
     add_surface(mesh, ball(shape.radius, shape.core.vertices.front().z(), shape.core.vertices.back().z()));
     const Vec3 middle = 0.5 * (shape.core.vertices.front() + shape.core.vertices.back());

@@ -43,16 +43,28 @@ struct MeshSpec {
   double scale = 1;
 };
 
+// One part of a compound: a convex shape, placed in the compound's frame.
+struct PartSpec {
+  std::variant<SphereSpec, BoxSpec, CapsuleSpec, CylinderSpec, ConeSpec, HullSpec> geometry;
+  Vec3 position = Vec3::Zero();         // m, of the part's own frame
+  Quat orientation = Quat::Identity();  // normalised
+  SourceMark where;                     // the value of its sphere/box/... key
+};
+struct CompoundSpec {
+  std::vector<PartSpec> parts;
+};
+
 struct ShapeSpec {
   std::string name;
-  std::variant<SphereSpec, BoxSpec, CapsuleSpec, CylinderSpec, ConeSpec, HullSpec, MeshSpec> geometry;
+  std::variant<SphereSpec, BoxSpec, CapsuleSpec, CylinderSpec, ConeSpec, HullSpec, MeshSpec, CompoundSpec>
+      geometry;
   std::optional<double> density;       // kg/m^3; never together with mass
   std::optional<double> mass;          // kg
   std::optional<Mat3> inertia;         // kg m^2 about the centre of mass, shape axes; needs mass
   std::optional<Vec3> center_of_mass;  // m, shape frame; only with inertia
   std::optional<double> restitution;   // [0, 1], overrides the scene's
   SourceMark where;                    // the shape's name
-  SourceMark geometry_where;           // the value of its sphere/box/.../mesh key
+  SourceMark geometry_where;           // the value of its sphere/box/.../mesh/parts key
 };
 
 struct BodySpec {

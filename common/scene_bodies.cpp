@@ -48,16 +48,6 @@ std::string read_name(const Section& body) {
   return name;
 }
 
-Quat read_orientation(const Section& placed) {
-  if (!placed.has("rotation")) return placed.get_or(quaternion_value, "orientation", Quat::Identity());
-  if (placed.has("orientation"))
-    refuse(placed.entry("rotation").key_place, "'rotation' beside 'orientation'; keep one of them");
-  const Section rotation = placed.section("rotation");
-  constexpr double full_turn = 360;  // beyond it an angle says nothing new, and its half loses digits
-  const double degrees = std::remainder(rotation.get(number_value, "degrees"), full_turn);
-  return Quat(Eigen::AngleAxisd(degrees * std::numbers::pi / 180, rotation.get(direction_value, "axis")));
-}
-
 BodySpec read_body(const Section& body, const ShapeIndex& index) {
   BodySpec spec;
   spec.where = body.place().mark();
@@ -105,6 +95,16 @@ void append_bodies(const Section& body, const BodySpec& spec, std::vector<BodySp
 }
 
 }  // namespace
+
+Quat read_orientation(const Section& placed) {
+  if (!placed.has("rotation")) return placed.get_or(quaternion_value, "orientation", Quat::Identity());
+  if (placed.has("orientation"))
+    refuse(placed.entry("rotation").key_place, "'rotation' beside 'orientation'; keep one of them");
+  const Section rotation = placed.section("rotation");
+  constexpr double full_turn = 360;  // beyond it an angle says nothing new, and its half loses digits
+  const double degrees = std::remainder(rotation.get(number_value, "degrees"), full_turn);
+  return Quat(Eigen::AngleAxisd(degrees * std::numbers::pi / 180, rotation.get(direction_value, "axis")));
+}
 
 std::vector<PairSpec> read_pairs(const Section& scene, const std::vector<ShapeSpec>& shapes) {
   const ShapeIndex index = index_of(shapes);

@@ -1,5 +1,6 @@
 #include "common/scene_keys.hpp"
 
+#include <algorithm>
 #include <unordered_map>
 
 namespace fc {
@@ -58,16 +59,22 @@ std::vector<SceneKey> build_table() {
   {"shapes.<name>.capsule", 1, on, one_kind, section, "", {}, "A cylinder along local z with half-spheres at its ends.", "{radius: 0.1, length: 1}", {}},
   {"shapes.<name>.capsule.radius", 1, on, required, number, "m", size, "Radius of the cylinder and its caps.", "0.1", {}},
   {"shapes.<name>.capsule.length", 1, on, required, number, "m", size, "Length of the cylinder, without the caps.", "1", {}},
-  {"shapes.<name>.cylinder", 1, 1, one_kind, section, "", {}, "A cylinder along local z about the shape's origin (chapter 1 only, so far).", "{radius: 0.1, length: 1}", {}},
-  {"shapes.<name>.cylinder.radius", 1, 1, required, number, "m", size, "Radius.", "0.1", {}},
-  {"shapes.<name>.cylinder.length", 1, 1, required, number, "m", size, "Length.", "1", {}},
-  {"shapes.<name>.cone", 1, 1, one_kind, section, "", {}, "A cone along local z, base down, its middle at the shape's origin (chapter 1 only, so far).", "{radius: 0.1, length: 1}", {}},
-  {"shapes.<name>.cone.radius", 1, 1, required, number, "m", size, "Radius of its base.", "0.1", {}},
-  {"shapes.<name>.cone.length", 1, 1, required, number, "m", size, "Height, from the base to the apex.", "1", {}},
+  {"shapes.<name>.cylinder", 1, on, one_kind, section, "", {}, "A cylinder along local z about the shape's origin.", "{radius: 0.1, length: 1}", {}},
+  {"shapes.<name>.cylinder.radius", 1, on, required, number, "m", size, "Radius.", "0.1", {}},
+  {"shapes.<name>.cylinder.length", 1, on, required, number, "m", size, "Length.", "1", {}},
+  {"shapes.<name>.cone", 1, on, one_kind, section, "", {}, "A cone along local z: its base at -length/2, its apex at length/2.", "{radius: 0.1, length: 1}", {}},
+  {"shapes.<name>.cone.radius", 1, on, required, number, "m", size, "Radius of its base.", "0.1", {}},
+  {"shapes.<name>.cone.length", 1, on, required, number, "m", size, "Height, from the base to the apex.", "1", {}},
   {"shapes.<name>.hull", 1, on, one_kind, section, "", {}, "The convex hull of points.", "{points: [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]}", {}},
   {"shapes.<name>.hull.points", 1, on, required, points, "m", any, "At least four points that span a volume.", "[[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]", {}},
   {"shapes.<name>.mesh", 2, on, one_kind, file, "", {}, "A triangle mesh: OBJ, STL or PLY; looked for beside the scene, then in --mesh-path folders.", "bunny.obj", {}},
   {"shapes.<name>.scale", 2, on, "1", number, "1", size, "Factor on the mesh's coordinates.", "1", {}},
+  {"shapes.<name>.parts", 2, on, one_kind, list, "", {}, "A compound: the union of convex parts, each placed in the shape's frame. They may overlap; each part's mass is counted in full.", "[{box: {size: [1, 1, 1]}}, {sphere: {radius: 0.3}, position: [0, 0, 0.6]}]", {}},
+  {"shapes.<name>.parts[].position", 2, on, "[0, 0, 0]", vector3, "m", any, "Where the part's own frame is.", "[0, 0, 0.6]", {}},
+  {"shapes.<name>.parts[].orientation", 2, on, "[1, 0, 0, 0]", quaternion, "1", any, "Quaternion [w, x, y, z] that turns the part's frame; normalised.", "[1, 0, 0, 0]", {}},
+  {"shapes.<name>.parts[].rotation", 2, on, none, section, "", {}, "The turn of the part's frame by an axis and an angle, instead of orientation.", "{axis: [0, 0, 1], degrees: 30}", {}},
+  {"shapes.<name>.parts[].rotation.axis", 2, on, required, vector3, "1", any, "Direction to turn about, right-handed; normalised, not zero.", "[0, 0, 1]", {}},
+  {"shapes.<name>.parts[].rotation.degrees", 2, on, required, number, "deg", any, "Angle.", "30", {}},
   {"shapes.<name>.density", 1, on, "required to move (chapter 3 on), unless mass", number, "kg/m^3", positive, "Mass per volume; never beside mass.", "1000", {}},
   {"shapes.<name>.mass", 1, on, "required to move (chapter 3 on), unless density", number, "kg", positive, "Mass; never beside density.", "2", {}},
   {"shapes.<name>.inertia", 1, on, "of a uniform solid", inertia, "kg m^2", {-1e18, 1e18}, "Inertia about the centre of mass, along the shape's axes; needs mass.", "[0.1, 0.1, 0.1]", {}},
@@ -110,6 +117,24 @@ std::vector<SceneKey> build_table() {
 }
 // clang-format on
 
+// A part of a compound has the keys of the convex kinds, too.
+std::vector<SceneKey> with_parts(std::vector<SceneKey> table) {
+  const std::string shape = "shapes.<name>.";
+  std::vector<SceneKey> of_parts;
+  for (SceneKey key : table)
+    for (const std::string kind : {"sphere", "box", "capsule", "cylinder", "cone", "hull"})
+      if (key.path == shape + kind || key.path.starts_with(shape + kind + ".")) {
+        key.path = shape + "parts[]." + key.path.substr(shape.size());
+        key.first = 2;
+        of_parts.push_back(key);
+      }
+  const auto first = std::find_if(table.begin(), table.end(), [&](const SceneKey& key) {
+    return key.path == shape + "parts[].position";
+  });
+  table.insert(first, of_parts.begin(), of_parts.end());
+  return table;
+}
+
 std::string parent_of(const std::string& path) {
   const std::size_t dot = path.rfind('.');
   return dot == std::string::npos ? "" : path.substr(0, dot);
@@ -118,7 +143,7 @@ std::string parent_of(const std::string& path) {
 }  // namespace
 
 const std::vector<SceneKey>& scene_keys() {
-  static const std::vector<SceneKey> table = build_table();
+  static const std::vector<SceneKey> table = with_parts(build_table());
   return table;
 }
 

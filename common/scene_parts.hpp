@@ -11,6 +11,9 @@ namespace fc {
 std::filesystem::path resolved_file(const Section& section, const std::string& key,
                                     const SceneSource& source);
 
+// The turn of a body or a part, by `orientation` or by `rotation`.
+Quat read_orientation(const Section& placed);
+
 std::vector<ShapeSpec> read_shapes(const Section& scene, const SceneSource& source);
 
 std::vector<PairSpec> read_pairs(const Section& scene, const std::vector<ShapeSpec>& shapes);

@@ -7,7 +7,8 @@
 namespace fc {
 namespace {
 
-const std::vector<std::string> kinds = {"sphere", "box", "capsule", "cylinder", "cone", "hull", "mesh"};
+const std::vector<std::string> kinds = {"sphere", "box",  "capsule", "cylinder",
+                                        "cone",   "hull", "mesh",    "parts"};
 
 // Debian's glmark2-data ships the Stanford bunny here.
 constexpr const char* system_models = "/usr/share/glmark2/models";
@@ -33,35 +34,29 @@ std::filesystem::path find_mesh(const Section& shape, const SceneSource& source)
                      in_quotes(name.string()), one_of(tried)));
 }
 
-// The one kind of shape that a shape's section has.
-std::string kind_of(const Section& shape, const std::string& name, int chapter) {
+// The one kind of shape that the section of a shape, or of a part, has. `who`: "shape 'rod'".
+std::string kind_of(const Section& shape, const std::string& who, int chapter) {
   std::string found;
   for (const std::string& kind : kinds) {
     if (!shape.has(kind)) continue;
     if (!found.empty()) {
       refuse(shape.entry(kind).key_place,
-             fmt::format("shape {} has two kinds, '{}' and '{}'; keep one of them", in_quotes(name), found,
-                         kind));
+             fmt::format("{} has two kinds, '{}' and '{}'; keep one of them", who, found, kind));
     }
     found = kind;
   }
   if (found.empty()) {
     std::vector<std::string> known;  // to this chapter
     for (const std::string& kind : kinds)
-      if (chapter <= find_scene_key("shapes.<name>." + kind)->last) known.push_back(kind);
-    refuse(shape.place(),
-           fmt::format("shape {} has no kind; give it one of {}", in_quotes(name), one_of(known)));
+      if (const SceneKey* key = shape.find_row(kind); key && key->known_in(chapter)) known.push_back(kind);
+    refuse(shape.place(), fmt::format("{} has no kind; give it one of {}", who, one_of(known)));
   }
   return found;
 }
 
-void read_geometry(const Section& shape, const std::string& kind, const SceneSource& source,
-                   ShapeSpec& spec) {
-  spec.geometry_where = shape.node(kind).mark();
-  if (kind == "mesh") {
-    spec.geometry = MeshSpec{find_mesh(shape, source), shape.get_or(number_value, "scale", 1.0)};
-    return;
-  }
+// The geometry of a convex kind, into a shape's specification or a part's.
+template <class Spec>
+void read_convex(const Section& shape, const std::string& kind, Spec& spec) {
   const Section geometry = shape.section(kind);
   if (kind == "sphere") spec.geometry = SphereSpec{geometry.get(number_value, "radius")};
   if (kind == "box") spec.geometry = BoxSpec{geometry.get(vector_value, "size")};
@@ -79,6 +74,33 @@ void read_geometry(const Section& shape, const std::string& kind, const SceneSou
              "a hull of fewer than 4 points has no volume; give at least 4 points");
     }
   }
+}
+
+CompoundSpec read_parts(const Section& shape, const std::string& name, int chapter) {
+  CompoundSpec compound;
+  for (const YamlPtr& item : shape.node("parts").items) {
+    const Section part(*item, "shapes.<name>.parts[]");
+    const std::string kind =
+        kind_of(part, fmt::format("part {} of shape {}", compound.parts.size(), in_quotes(name)), chapter);
+    PartSpec spec;
+    spec.where = part.node(kind).mark();
+    read_convex(part, kind, spec);
+    spec.position = part.get_or(vector_value, "position", spec.position);
+    spec.orientation = read_orientation(part);
+    compound.parts.push_back(std::move(spec));
+  }
+  return compound;
+}
+
+void read_geometry(const Section& shape, const std::string& kind, const SceneSource& source,
+                   ShapeSpec& spec) {
+  spec.geometry_where = shape.node(kind).mark();
+  if (kind == "mesh")
+    spec.geometry = MeshSpec{find_mesh(shape, source), shape.get_or(number_value, "scale", 1.0)};
+  else if (kind == "parts")
+    spec.geometry = read_parts(shape, spec.name, source.chapter);
+  else
+    read_convex(shape, kind, spec);
 }
 
 void read_mass(const Section& shape, ShapeSpec& spec) {
@@ -120,7 +142,7 @@ std::vector<ShapeSpec> read_shapes(const Section& scene, const SceneSource& sour
     ShapeSpec spec;
     spec.name = entry.key;
     spec.where = entry.key_place.mark();
-    const std::string kind = kind_of(shape, entry.key, source.chapter);
+    const std::string kind = kind_of(shape, "shape " + in_quotes(entry.key), source.chapter);
     if (shape.has("scale") && kind != "mesh") {
       refuse(shape.entry("scale").key_place,
              "'scale' is for meshes only; remove it, and write the size you want");

@@ -45,9 +45,11 @@ class Section {
   const YamlNode::Entry& entry(const std::string& key) const { return *map_.find(key); }
   const YamlNode& node(const std::string& key) const { return *entry(key).value; }
   const YamlPlace& place() const { return map_.place; }
-  const SceneKey& row(const std::string& key) const {
-    return *find_scene_key(pattern_.empty() ? key : pattern_ + "." + key);
+  // The row of the table of a key of this map, or nullptr.
+  const SceneKey* find_row(const std::string& key) const {
+    return find_scene_key(pattern_.empty() ? key : pattern_ + "." + key);
   }
+  const SceneKey& row(const std::string& key) const { return *find_row(key); }
   Section section(const std::string& key) const { return {node(key), row(key).path}; }
 
   // The value of a key by one of the functions above: get(number_value, "mass").

@@ -36,6 +36,7 @@ struct Geometry {
   std::optional<MassProperties> unit;  // nothing: no volume that matter could fill
   bool unit_of_hull = false;           // `unit` is that of the convex hull, filled
   std::vector<double> disks = {};
+  std::vector<Shape> parts = {};  // of a compound, in the shape's own frame
 };
 
 TriangleMesh box_core(const Vec3& size) {
@@ -125,6 +126,47 @@ Geometry geometry_of(const MeshSpec& mesh, const ShapeSpec& spec) {
   return geometry;
 }
 
+// Adds matter that stands turned and moved in the whole's frame.
+void add_mass(MassProperties& whole, const MassProperties& part, const Mat3& rotation, const Vec3& position) {
+  const Vec3 center = rotation * part.center_of_mass + position;
+  const auto about = [](const Vec3& d) { return d.squaredNorm() * Mat3::Identity() - d * d.transpose(); };
+  const double mass = whole.mass + part.mass;
+  const Vec3 middle = whole.center_of_mass + part.mass / mass * (center - whole.center_of_mass);
+  whole.inertia += rotation * part.inertia * rotation.transpose() + part.mass * about(center - middle) +
+                   whole.mass * about(whole.center_of_mass - middle);
+  whole.mass = mass;
+  whole.center_of_mass = middle;
+}
+
+Geometry geometry_of(const CompoundSpec& compound, const ShapeSpec& spec) {
+  Geometry whole;
+  whole.kind = Shape::Kind::compound;
+  MassProperties unit{0, Vec3::Zero(), Mat3::Zero()};
+  for (const PartSpec& part : compound.parts) {
+    ShapeSpec alone = spec;
+    alone.geometry_where = part.where;
+    Geometry geometry = std::visit([&](const auto& g) { return geometry_of(g, alone); }, part.geometry);
+    const Mat3 rotation = part.orientation.toRotationMatrix();
+    add_mass(unit, *geometry.unit, rotation, part.position);
+    Shape shape;
+    shape.kind = geometry.kind;
+    shape.radius = geometry.radius;
+    shape.disks = std::move(geometry.disks);
+    shape.axis = rotation.col(2);
+    shape.core = std::move(geometry.core);
+    const int first = static_cast<int>(whole.core.vertices.size());
+    for (Vec3& v : shape.core.vertices) {
+      v = rotation * v + part.position;
+      whole.core.vertices.push_back(v);
+    }
+    for (const auto& [i, j, k] : shape.core.triangles)
+      whole.core.triangles.push_back({first + i, first + j, first + k});
+    whole.parts.push_back(std::move(shape));
+  }
+  whole.unit = unit;
+  return whole;
+}
+
 // The centre of a surface that encloses nothing, not even by its hull: the mean over its area.
 Vec3 area_centroid(const TriangleMesh& mesh) {
   double area = 0;
@@ -178,9 +220,39 @@ void set_mass(Shape& shape, const Geometry& geometry, const ShapeSpec& spec) {
               ": the mesh is an open, flat surface, and no mass follows from it; give mass and inertia");
   shape.mass = scaled(*geometry.unit, spec.mass ? *spec.mass / geometry.unit->mass : *spec.density);
   shape.mass_source = (spec.mass ? "mass" : "density") + of_hull;
+  if (geometry.kind == Shape::Kind::compound) shape.mass_source += ", each part counted in full";
+}
+
+// The largest distance of the shape from its centre of mass.
+double reach_of(const Shape& shape) {
+  double reach = 0;
+  for (const Shape& part : shape.parts) reach = std::max(reach, reach_of(part));
+  if (!shape.parts.empty()) return reach;
+  for (std::size_t i = 0; i < shape.core.vertices.size(); ++i) {
+    const Vec3& v = shape.core.vertices[i];
+    const double disk = shape.disks.empty() ? 0 : shape.disks[i], along = shape.axis.dot(v);
+    const double rim = disk > 0 ? std::hypot((v - along * shape.axis).norm() + disk, along) : v.norm();
+    reach = std::max(reach, rim + shape.radius);
+  }
+  return reach;
 }
 
 }  // namespace
+
+Eigen::AlignedBox3d bounds_of(const Shape& shape) {
+  Eigen::AlignedBox3d box;
+  for (const Shape& part : shape.parts) box.extend(bounds_of(part));
+  if (!shape.parts.empty()) return box;
+  // A disk reaches along x as far as the part of x that lies in its plane.
+  const Vec3 flat = (Vec3::Ones() - shape.axis.cwiseAbs2()).cwiseMax(0).cwiseSqrt();
+  for (std::size_t i = 0; i < shape.core.vertices.size(); ++i) {
+    const Vec3 half = Vec3::Constant(shape.radius) +
+                      (shape.disks.empty() ? Vec3(Vec3::Zero()) : Vec3(shape.disks[i] * flat));
+    box.extend(shape.core.vertices[i] - half);
+    box.extend(shape.core.vertices[i] + half);
+  }
+  return box;
+}
 
 Shape build_shape(const ShapeSpec& spec, double scene_restitution) {
   Geometry geometry = std::visit([&](const auto& g) { return geometry_of(g, spec); }, spec.geometry);
@@ -199,13 +271,11 @@ Shape build_shape(const ShapeSpec& spec, double scene_restitution) {
 
   shape.core = std::move(geometry.core);
   shape.disks = std::move(geometry.disks);
-  for (std::size_t i = 0; i < shape.core.vertices.size(); ++i) {
-    Vec3& v = shape.core.vertices[i];
-    v -= shape.mass.center_of_mass;
-    const double disk = shape.disks.empty() ? 0 : shape.disks[i];
-    const double rim = disk > 0 ? std::hypot(std::hypot(v.x(), v.y()) + disk, v.z()) : v.norm();
-    shape.reach = std::max(shape.reach, rim + shape.radius);
-  }
+  shape.parts = std::move(geometry.parts);
+  for (Vec3& v : shape.core.vertices) v -= shape.mass.center_of_mass;
+  for (Shape& part : shape.parts)
+    for (Vec3& v : part.core.vertices) v -= shape.mass.center_of_mass;
+  shape.reach = reach_of(shape);
   return shape;
 }
 

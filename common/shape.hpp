@@ -1,7 +1,8 @@
 // Shapes ready for collision and dynamics, built from their specifications.
 //
-// Every shape is a polyhedral core plus a rounding radius: a sphere is a point, a capsule a segment, a box
-// and a hull closed meshes, a mesh itself. Coordinates are relative to the centre of mass, along the shape's
+// Every shape is a core plus a rounding radius: a sphere is a point, a capsule a segment, a box and a hull
+// closed meshes, a mesh itself, a cylinder and a cone the hull of two disks; a compound is the union of such
+// parts. Coordinates are relative to the centre of mass, along the shape's
 // own axes, so that a body's pose for collision is (its orientation, its centre of mass).
 #pragma once
 
@@ -17,7 +18,7 @@
 namespace fc {
 
 struct Shape {
-  enum class Kind { sphere, capsule, cylinder, cone, box, hull, mesh };
+  enum class Kind { sphere, capsule, cylinder, cone, box, hull, mesh, compound };
 
   std::string name;
   Kind kind = Kind::sphere;
@@ -27,8 +28,13 @@ struct Shape {
   // Mesh: as prepare_mesh left it.
   TriangleMesh core;
   // Cylinder and cone: 2 vertices on the axis, bottom and top, and for each the radius in m of a disk about
-  // it, across local z (0: none); the core is the convex hull of both disks. Empty for all others.
+  // it, across the axis (0: none); the core is the convex hull of both disks. Empty for all others.
   std::vector<double> disks;
+  Vec3 axis = Vec3::UnitZ();  // unit: of a sphere, capsule, cylinder or cone; another than z only of a part
+  // Compound: its convex parts, each where it is in the whole: relative to the whole's centre of mass and
+  // along its axes. Nothing but kind, core, disks, axis and radius means anything of a part. The whole's own
+  // core is that of all parts together. Empty for all others.
+  std::vector<Shape> parts;
   double radius = 0;    // m, rounding radius around the core
   bool solid = true;    // has an inside (false: a mesh that is only its surface)
   double reach = 0;     // m, the largest distance of the shape from its centre of mass, radius included
@@ -39,16 +45,20 @@ struct Shape {
   double restitution = 0;  // the shape's own, or the scene's, or 0
   MeshReport report;       // meshes only
 
-  bool convex() const { return kind != Kind::mesh; }
+  bool convex() const { return kind != Kind::mesh && kind != Kind::compound; }
 };
 inline std::ostream& operator<<(std::ostream& out, Shape::Kind kind) {
   constexpr const char* kNames[] = {"sphere", "capsule", "cylinder", "cone", "box", "hull", "mesh"};
   return out << kNames[static_cast<int>(kind)];
 }
 
+// The box along the shape's axes, about its centre of mass, that just holds it, m.
+Eigen::AlignedBox3d bounds_of(const Shape& shape);
+
 // Builds one shape. Its mass and centre of mass, in this order:
 //   mass and inertia   as given; the centre is center_of_mass, else the centroid of the solid
-//   mass, or density   the solid filled evenly; of a mesh without inside, its convex hull filled evenly
+//   mass, or density   the solid filled evenly; of a mesh without inside, its convex hull filled evenly; of
+//                      a compound each part in full, also where parts overlap
 //   neither            no mass; the centre is the centroid: a query's body turns about its true centre
 // The centroid of a mesh without inside is that of its convex hull, filled; of a flat one, the mean over its
 // area.

@@ -86,7 +86,8 @@ SupportTable::SupportTable(std::span<const Vec3> points) {
 }
 
 SupportPoint support_of_disks(const Convex& core, const Vec3& d) {
-  const double across = std::hypot(d.x(), d.y());
+  const Vec3 sideways = d - d.dot(core.axis) * core.axis;
+  const double across = std::hypot(sideways.x(), sideways.y(), sideways.z());
   int best = 0;
   double most = -std::numeric_limits<double>::infinity();
   for (int i = 0; i < static_cast<int>(core.points.size()); ++i) {
@@ -97,7 +98,7 @@ SupportPoint support_of_disks(const Convex& core, const Vec3& d) {
     }
   }
   Vec3 point = core.points[best];
-  if (across > 0) point += core.disks[best] / across * Vec3(d.x(), d.y(), 0);
+  if (across > 0) point += core.disks[best] / across * sideways;
   return {point, best};
 }
 
@@ -105,6 +106,16 @@ double reach_of(std::span<const Vec3> points) {
   double reach2 = 0;
   for (const Vec3& p : points) reach2 = std::max(reach2, p.squaredNorm());
   return std::sqrt(reach2) * (1 + 4 * kEpsilon);
+}
+
+double reach_of(std::span<const Vec3> points, std::span<const double> disks, const Vec3& axis) {
+  if (disks.empty()) return reach_of(points);
+  double reach = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double along = axis.dot(points[i]), across = (points[i] - along * axis).norm();
+    reach = std::max(reach, std::hypot(across + disks[i], along));
+  }
+  return reach * (1 + 8 * kEpsilon);
 }
 
 double reach_across(const Convex& core, const Vec3& axis) {

@@ -13,7 +13,7 @@ namespace fc::ca {
 class SupportTable;
 
 // A convex core: the convex hull of points (others inside do no harm), each of which may carry a disk about
-// itself, in the plane across local z; and the radius of the ball that rounds it all. A cylinder is two
+// itself, in the plane across the axis; and the radius of the ball that rounds it all. A cylinder is two
 // points with equal disks, a cone a point with a disk and its apex with none. Coordinates are in the body's
 // axes, about its centre of mass. The rounding radius never enters GJK: it is taken off the distance
 // afterwards. A view: it owns nothing (ConvexCore does).
@@ -24,6 +24,7 @@ struct Convex {
   Vec3 center = Vec3::Zero();           // m, somewhere in the middle: where GJK first looks from
   std::span<const double> disks{};      // m, the radius of each point's disk; empty: no disks
   const SupportTable* table = nullptr;  // of the same points; none: every point is looked at
+  Vec3 axis = Vec3::UnitZ();            // unit: the disks lie across it
 };
 
 // A point of a core, and the number of the point that it is, or whose disk it is on.
@@ -101,8 +102,9 @@ inline SupportPoint support(const Convex& core, const Vec3& direction) {
   return {core.points[best], best};
 }
 
-// The largest |point|, in m: what Convex::reach must be for a core without disks.
+// The largest |point|, in m: what Convex::reach must be for a core without disks, and for one with.
 double reach_of(std::span<const Vec3> points);
+double reach_of(std::span<const Vec3> points, std::span<const double> disks, const Vec3& axis);
 
 // The largest distance in m of a point of the core from the line through the centre of mass along a unit
 // axis (body axes): no larger than the reach.

@@ -34,10 +34,14 @@ LongVec in_body_axes(const Motion& m, Long t, LongVec d) {
 
 // max d.x over the core; d in body axes, of any length.
 Long support_value(const ReplayShape& shape, const LongVec& d) {
-  const Long across = shape.disks.empty() ? 0 : std::hypot(d.x(), d.y());
   Long most = -std::numeric_limits<Long>::infinity();
-  for (std::size_t i = 0; i < shape.points.size(); ++i)
-    most = std::max(most, d.dot(shape.points[i]) + (shape.disks.empty() ? 0 : across * shape.disks[i]));
+  for (std::size_t i = 0; i < shape.points.size(); ++i) {
+    Long value = d.dot(shape.points[i]);
+    if (!shape.disks.empty())
+      value += shape.disks[i] * (d - d.dot(shape.axis_of(i)) * shape.axis_of(i)).norm();
+    if (!shape.balls.empty()) value += shape.balls[i] * d.norm();
+    most = std::max(most, value);
+  }
   return most;
 }
 
@@ -47,8 +51,9 @@ Long reach_across(const ReplayShape& shape, const Motion& m) {
   if (spin.norm() == 0) return 0;
   Long most = 0;
   for (std::size_t i = 0; i < shape.points.size(); ++i)
-    most = std::max(
-        most, spin.normalized().cross(shape.points[i]).norm() + (shape.disks.empty() ? 0 : shape.disks[i]));
+    most = std::max(most, spin.normalized().cross(shape.points[i]).norm() +
+                              (shape.disks.empty() ? 0 : shape.disks[i]) +
+                              (shape.balls.empty() ? 0 : shape.balls[i]));
   return most;
 }
 

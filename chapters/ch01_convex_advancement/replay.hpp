@@ -19,12 +19,17 @@ namespace fc::ca {
 using Long = long double;
 using LongVec = Eigen::Matrix<Long, 3, 1>;
 
-// The convex hull of points, each with a disk about it across local z, rounded by a ball.
+// The convex hull of points, each with a disk about it across its axis and a ball of its own, rounded by a
+// ball.
 struct ReplayShape {
   std::vector<LongVec> points;  // m, about the centre of mass, body axes
   std::vector<Long> disks;      // m, the radius of each point's disk; empty: no disks
-  Long radius = 0;              // m, of the ball
-  Long reach = 0;               // m, the largest distance from the centre of mass, without the ball
+  std::vector<LongVec> axes;    // unit, across which the disks lie; empty: all across z
+  std::vector<Long> balls;      // m, the radius of each point's own ball; empty: none
+  Long radius = 0;              // m, of the ball that rounds all
+  Long reach = 0;               // m, the largest distance from the centre of mass, without that ball
+
+  LongVec axis_of(std::size_t point) const { return axes.empty() ? LongVec(LongVec::UnitZ()) : axes[point]; }
 };
 ReplayShape replay_shape(const Shape& shape);
 

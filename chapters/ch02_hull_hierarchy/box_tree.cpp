@@ -67,12 +67,20 @@ Mat3 axes_from(const Vec3& w, const Vec3& u) {
 
 struct Builder {
   const FeatureMesh& mesh;
+  const std::vector<std::vector<Vec3>>* leaves = nullptr;  // in place of the triangles
   BoxTree tree{};
   std::vector<Vec3> middles{};  // of the triangles
   double noise = 0;             // m, the rounding of a point's coordinates in a box
 
   std::vector<Vec3> points_of(int begin, int end) const {
     std::vector<Vec3> points;
+    if (leaves != nullptr) {
+      for (int k = begin; k < end; ++k) {
+        const std::vector<Vec3>& leaf = (*leaves)[static_cast<std::size_t>(tree.leaf_item[k])];
+        points.insert(points.end(), leaf.begin(), leaf.end());
+      }
+      return points;
+    }
     points.reserve(3 * (end - begin));
     for (int k = begin; k < end; ++k)
       for (const int v : mesh.triangles[tree.leaf_item[k]]) points.push_back(mesh.vertices[v]);
@@ -95,7 +103,7 @@ struct Builder {
     principal.computeDirect(spread / std::max(spread.cwiseAbs().maxCoeff(), 1e-300));
     consider(axes_from(principal.eigenvectors().col(0), principal.eigenvectors().col(2)));
     // A few triangles: the axes of each, along its longest side.
-    if (end - begin <= kFewTriangles)
+    if (leaves == nullptr && end - begin <= kFewTriangles)
       for (int k = begin; k < end; ++k) {
         const int t = tree.leaf_item[k];
         Vec3 longest = Vec3::Zero();
@@ -181,12 +189,48 @@ struct Builder {
 
 }  // namespace
 
-BoxTree build_box_tree(const FeatureMesh& mesh, bool whole) {
-  double reach = 0;
-  for (const Vec3& p : mesh.vertices) reach = std::max(reach, p.norm());
+namespace {
+
+void check_reach(double reach) {
   if (reach != 0 && !(reach >= kSmallest && reach <= kLargest))
     throw std::invalid_argument("build_box_tree: the model reaches " + std::to_string(reach) +
                                 " m from its centre of mass; it must be 1e-12 m to 1e15 m");
+}
+
+}  // namespace
+
+BoxTree build_box_tree(const std::vector<std::vector<Vec3>>& leaves) {
+  const FeatureMesh none;
+  Builder builder{none, &leaves};
+  BoxTree& tree = builder.tree;
+  double reach = 0;
+  for (const std::vector<Vec3>& leaf : leaves) {
+    Eigen::AlignedBox3d box;
+    for (const Vec3& p : leaf) {
+      box.extend(p);
+      reach = std::max(reach, p.norm());
+    }
+    builder.middles.push_back(box.center());
+  }
+  check_reach(reach);
+  builder.noise = 1e-15 * reach;
+  const int count = static_cast<int>(leaves.size());
+  tree.quads.push_back(Builder::empty_quad());
+  tree.leaf_item.resize(leaves.size());
+  std::iota(tree.leaf_item.begin(), tree.leaf_item.end(), 0);
+  builder.node(0, 0, 0, count, builder.fit(0, count, builder.points_of(0, count)));
+  tree.points = builder.points_of(0, count);
+  tree.leaf_start = {0};
+  for (const int item : tree.leaf_item)
+    tree.leaf_start.push_back(tree.leaf_start.back() +
+                              static_cast<int>(leaves[static_cast<std::size_t>(item)].size()));
+  return std::move(tree);
+}
+
+BoxTree build_box_tree(const FeatureMesh& mesh, bool whole) {
+  double reach = 0;
+  for (const Vec3& p : mesh.vertices) reach = std::max(reach, p.norm());
+  check_reach(reach);
   Builder builder{mesh};
   builder.noise = 1e-15 * reach;
   BoxTree& tree = builder.tree;

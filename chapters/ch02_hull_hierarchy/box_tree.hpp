@@ -27,10 +27,11 @@ struct alignas(64) BoxQuad {
 // A node is one box of a quad: 4 * (number of the quad) + lane.
 using NodeId = int;
 
-// A leaf is a triangle, or the whole of a convex core. Its points are stored side by side.
+// A leaf is a triangle, or the whole of a convex core, or a part of a compound. Its points are stored side by
+// side.
 struct BoxTree {
   std::vector<BoxQuad> quads;   // quads[0] has the root, in lane 0
-  std::vector<int> leaf_item;   // leaf -> triangle; one leaf, -1: the convex core
+  std::vector<int> leaf_item;   // leaf -> triangle, or part; one leaf, -1: the convex core
   std::vector<int> leaf_start;  // leaf -> its first point; one more than there are leaves
   std::vector<Vec3> points;     // m
 
@@ -46,5 +47,7 @@ struct BoxTree {
 // are the best of a few: the principal axes of the triangles' area, the shape's axes, those of a triangle.
 // "Best" is the smallest surface. `whole`: one leaf for all vertices (a convex core).
 BoxTree build_box_tree(const FeatureMesh& mesh, bool whole);
+// Over leaves that are given by points around them: a leaf's item is its number here.
+BoxTree build_box_tree(const std::vector<std::vector<Vec3>>& leaves);
 
 }  // namespace fc::hulls

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <tuple>
 
+#include "ch02_hull_hierarchy/curved_features.hpp"
 #include "ch02_hull_hierarchy/model_distance.hpp"
+#include "ch02_hull_hierarchy/union_surface.hpp"
 
 namespace fc::hulls {
 namespace {
@@ -240,7 +242,18 @@ struct Collector {
 
 // The feature that GJK's simplex spans on one side: a vertex, an edge or a face of the leaf.
 void name_feature(const Model& model, int leaf, const std::array<ca::SupportPoint, 4>& simplex, int count,
-                  FeatureKind& kind, int& id) {
+                  const Vec3& outward, FeatureKind& kind, int& id) {
+  if (!model.parts.empty()) {
+    name_feature(model.part_of(leaf), 0, simplex, count, outward, kind, id);
+    id += model.first_name[static_cast<std::size_t>(model.boxes.leaf_item[leaf])];
+    return;
+  }
+  if (model.curved()) {
+    const Outline outline = outline_of(model, outward);
+    kind = outline.kind;
+    id = outline.id;
+    return;
+  }
   const FeatureMesh& mesh = model.mesh;
   const int triangle = model.boxes.leaf_item[leaf];
   std::vector<int> corners;
@@ -302,12 +315,56 @@ FeaturePair witness(const Model& a, const Model& b, const LeafPair& pair, const 
   w.point_b = to_a * pair.gjk.point_b;
   w.normal = to_a * pair.gjk.normal;
   w.gap = std::max(pair.gjk.lower, std::min(pair.gjk.upper, w.normal.dot(w.point_b - w.point_a)));
-  name_feature(a, pair.a, pair.gjk.cache.a, pair.gjk.cache.count, w.kind_a, w.id_a);
-  name_feature(b, pair.b, pair.gjk.cache.b, pair.gjk.cache.count, w.kind_b, w.id_b);
+  name_feature(a, pair.a, pair.gjk.cache.a, pair.gjk.cache.count, w.normal, w.kind_a, w.id_a);
+  name_feature(b, pair.b, pair.gjk.cache.b, pair.gjk.cache.count,
+               -(pose.b_in_a.rotation.transpose() * w.normal), w.kind_b, w.id_b);
   const bool triangles = a.boxes.leaf_item[pair.a] >= 0 && b.boxes.leaf_item[pair.b] >= 0;
   if (triangles && pair.gjk.status == ca::GjkResult::Status::overlapping)
     meet_in_one_point(a, b, pair, pose, w);
   return w;
+}
+
+// The features of one pair of leaves where a part of a compound, or something curved, takes part; only those
+// on the surface of the union.
+void add_features_of_leaves(const Model& a, const Model& b, const ca::PairPose& pose, const LeafPair& pair,
+                            double tolerance, std::vector<FeaturePair>& found) {
+  const Model &one = a.parts.empty() ? a : a.part_of(pair.a),
+              &other = b.parts.empty() ? b : b.part_of(pair.b);
+  const LeafPair local{a.parts.empty() ? pair.a : 0, b.parts.empty() ? pair.b : 0, pair.gjk};
+  std::vector<FeaturePair> features;
+  if (one.curved() || other.curved()) {
+    features = curved_features(one, other, pose, local, tolerance);
+  } else {
+    Collector collector{{one, {}, {}, {}, {}},
+                        {other, pose.b_in_a, {}, {}, {}},
+                        tolerance,
+                        one.radius + other.radius,
+                        {},
+                        {}};
+    collector.leaves(local, pose.rotation_a.transpose() * pair.gjk.normal);
+    features = std::move(collector.found);
+    // Far apart for their size, features near an edge can be near each other in directions that part nothing.
+    if (one.filled && other.filled)
+      std::erase_if(features, [&](const FeaturePair& f) {
+        return ca::support_gap(one.leaf(0), other.leaf(0), pose, pose.rotation_a * f.normal) < -tolerance;
+      });
+  }
+  const Mat3 to_b = pose.b_in_a.rotation.transpose();
+  for (FeaturePair& f : features) {
+    const bool of_face = f.kind_a == FeatureKind::face || f.kind_b == FeatureKind::face;
+    if (!a.parts.empty()) {
+      const int part = a.boxes.leaf_item[pair.a];
+      if (!of_face && !shows(a, part, f.point_a, f.normal)) continue;
+      f.id_a += a.first_name[static_cast<std::size_t>(part)];
+    }
+    if (!b.parts.empty()) {
+      const int part = b.boxes.leaf_item[pair.b];
+      if (!of_face && !shows(b, part, to_b * (f.point_b - pose.b_in_a.position), -(to_b * f.normal)))
+        continue;
+      f.id_b += b.first_name[static_cast<std::size_t>(part)];
+    }
+    found.push_back(f);
+  }
 }
 
 // Faces first, then edges, then vertices, so that of pairs that say the same the one with the best normal
@@ -349,8 +406,12 @@ std::vector<ca::FeaturePair> contact_features(const Model& a, const Model& b, co
       {a, {}, {}, {}, {}}, {b, pose.b_in_a, {}, {}, {}}, tolerance, a.radius + b.radius, {}, {}};
   const std::vector<LeafPair> near = leaf_pairs_within(a, b, pose, tolerance, tolerance);
   const LeafPair* nearest = nullptr;
+  const bool plain = a.parts.empty() && b.parts.empty() && !a.curved() && !b.curved();
   for (const LeafPair& pair : near) {
-    collector.leaves(pair, to_a * pair.gjk.normal);
+    if (plain)
+      collector.leaves(pair, to_a * pair.gjk.normal);
+    else
+      add_features_of_leaves(a, b, pose, pair, tolerance, collector.found);
     if (nearest == nullptr || pair.gjk.lower < nearest->gjk.lower) nearest = &pair;
   }
   if (nearest != nullptr) {

@@ -24,6 +24,10 @@ namespace fc::hulls {
 // numbers. Vertices, edges and faces are numbered as in Model::mesh. If the features' tests leave nothing,
 // the nearest witness points are the contact.
 //
+// Cylinders and cones have their own: see curved_features.hpp, and outline.hpp for the numbers of their
+// features. A compound's features are its parts', as far as they are on the surface of the union; those of a
+// part are numbered from Model::first_name on.
+//
 // `gap`, if it is given, becomes the certified gap of the two (m), if that is at most the tolerance; it is
 // left alone if not.
 std::vector<ca::FeaturePair> contact_features(const Model& a, const Model& b, const ca::PairPose& pose,

@@ -1,12 +1,15 @@
 #include "ch02_hull_hierarchy/hull_model.hpp"
 
 #include <numeric>
+#include <stdexcept>
 
 #include "ch02_hull_hierarchy/pieces.hpp"
 
 namespace fc::hulls {
 
 HullModel build_hull_model(const Model& model) {
+  if (model.curved() || !model.parts.empty())
+    throw std::invalid_argument("build_hull_model: the model is curved, or has parts; hulls are of points");
   HullModel hulls;
   hulls.radius = model.radius;
   hulls.reach = model.reach;

@@ -17,6 +17,8 @@ struct HullModel {
   }
 };
 
+// Of a mesh or a plain convex shape: throws std::invalid_argument for a cylinder, a cone or a compound, whose
+// hulls are not of points.
 HullModel build_hull_model(const Model& model);
 
 }  // namespace fc::hulls

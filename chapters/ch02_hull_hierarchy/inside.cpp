@@ -66,6 +66,11 @@ bool component_inside(const Model& inner, const Model& outer, const Pose& inner_
     return false;  // a filled hull meets what is inside it; a surface has no inside
   const auto near = [&](const Vec3& x) { return (inner_in_outer * x).norm() < outer.reach; };
   const auto inside = [&](const Vec3& x) { return near(x) && windings(outer, inner_in_outer * x) > 0.5; };
+  if (!inner.parts.empty() || inner.curved()) {  // the middle of a convex leaf is inside it
+    for (int leaf = 0; leaf < inner.boxes.leaves(); ++leaf)
+      if (inside(inner.leaf(leaf).center)) return true;
+    return false;
+  }
   if (inner.component_triangle.empty()) return inside(inner.mesh.vertices[0]);
   for (const int t : inner.component_triangle) {
     const auto& [i, j, k] = inner.mesh.triangles[t];

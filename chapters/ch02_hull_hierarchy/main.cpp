@@ -51,6 +51,7 @@ int run(const Scene& scene, const RunContext& context, Summary& summary) {
       context, summary,
       [&](MotionRecording& motion) {  // of a single query
         for (std::size_t i = 0; i < models.size(); ++i) {
+          if (models[i].curved() || !models[i].parts.empty()) continue;  // no hulls of points to look at
           const hulls::HullModel hulls = hulls::build_hull_model(models[i]);
           record_levels(motion, static_cast<int>(i), hulls);
           if (shapes[i].kind != Shape::Kind::mesh) continue;

@@ -58,6 +58,8 @@ struct Side {
     if (const auto found = points.find(node); found != points.end()) return found->second;
     const BoxQuad& quad = model.boxes.quads[node >> 2];
     const int first = quad.first_leaf[node & 3], end = first + quad.leaf_count[node & 3];
+    if (model.curved() || !model.parts.empty())
+      return points.emplace(node, of_leaves(first, end)).first->second;
     std::vector<int> vertices;  // each once
     if (model.filled) {
       vertices.resize(model.mesh.vertices.size());
@@ -71,6 +73,23 @@ struct Side {
     std::vector<LongVec> of;
     for (const int v : vertices) of.push_back(model.mesh.vertices[v].cast<Long>());
     return points.emplace(node, shape(std::move(of))).first->second;
+  }
+  // The hull of parts, or of something curved, exactly.
+  ca::ReplayShape of_leaves(int first, int end) const {
+    ca::ReplayShape result;
+    for (int leaf = first; leaf < end; ++leaf) {
+      const ca::Convex part = model.leaf(leaf);
+      for (std::size_t i = 0; i < part.points.size(); ++i) {
+        const LongVec p = part.points[i].cast<Long>();
+        const Long disk = part.disks.empty() ? 0 : part.disks[i];
+        result.points.push_back(p);
+        result.disks.push_back(disk);
+        result.axes.push_back(part.axis.cast<Long>().normalized());
+        result.balls.push_back(part.radius);
+        result.reach = std::max(result.reach, p.norm() + disk + Long(part.radius));
+      }
+    }
+    return result;
   }
   // A few points that have the node's leaves between them.
   const ca::ReplayShape& simple(NodeId node) {
@@ -164,14 +183,18 @@ std::string check_tree(const Model& model) {
   const BoxTree& tree = model.boxes;
   std::vector<int> items = tree.leaf_item;
   std::sort(items.begin(), items.end());
-  const int count = model.filled ? 1 : static_cast<int>(model.mesh.triangles.size());
+  const bool whole = model.curved() || !model.parts.empty();  // leaves are given by points around them
+  const int count = !model.parts.empty() ? static_cast<int>(model.parts.size())
+                    : model.filled       ? 1
+                                         : static_cast<int>(model.mesh.triangles.size());
   for (int k = 0; k < static_cast<int>(items.size()); ++k)
-    if (items[k] != (model.filled ? -1 : k)) return "the leaves are not each triangle once";
+    if (items[k] != (model.filled && !whole ? -1 : k))
+      return "the leaves are not each triangle, or part, once";
   if (tree.leaves() != count || tree.quads[0].first_leaf[0] != 0 || tree.quads[0].leaf_count[0] != count)
     return "the root has not all leaves";
   for (int leaf = 0; leaf < tree.leaves(); ++leaf) {
     const auto points = tree.leaf_points(leaf);
-    for (std::size_t k = 0; k < points.size(); ++k)
+    for (std::size_t k = 0; k < points.size() && !whole; ++k)
       if (points[k] != model.mesh.vertices[model.filled ? k : model.mesh.triangles[tree.leaf_item[leaf]][k]])
         return "a leaf's points are not its triangle's corners";
   }

@@ -30,7 +30,11 @@ struct Side {
     if (shape.table != nullptr)  // many points: the farthest one stands for all
       sweep2 = spin.squaredNorm() * shape.reach * shape.reach;
     else
-      for (const Vec3& x : shape.points) sweep2 = std::max(sweep2, spin.cross(x).squaredNorm());
+      for (std::size_t i = 0; i < shape.points.size(); ++i) {
+        const double rim = shape.disks.empty() ? 0 : shape.disks[i] * spin.norm();
+        const double of_point = spin.cross(shape.points[i]).squaredNorm();
+        sweep2 = std::max(sweep2, rim == 0 ? of_point : std::pow(std::sqrt(of_point) + rim, 2));
+      }
     bend = rate * (std::sqrt(sweep2) + m.wander() * shape.reach) + m.spin_change_bound() * shape.reach;
     noise = (m.free ? turned * m.spin_bound() : rate) * shape.reach;
   }

@@ -88,9 +88,8 @@ bool is_centred_ball(const Shape& shape) {
 
 // How far the shape reaches along its own axes, m: half of the box about its centre of mass that holds it.
 Vec3 half_extent(const Shape& shape) {
-  Vec3 half = Vec3::Zero();
-  for (const Vec3& vertex : shape.core.vertices) half = half.cwiseMax(vertex.cwiseAbs());
-  return half + Vec3::Constant(shape.radius);
+  const Eigen::AlignedBox3d bounds = bounds_of(shape);
+  return bounds.max().cwiseMax(-bounds.min());
 }
 
 // Where on its free rotation a body is after `elapsed` seconds more, and how fast it then goes through it.

@@ -51,6 +51,18 @@ int best_face(const Facets& facets, const Vec3& direction) {
   return best;
 }
 
+// What a cylinder or cone turns towards the other body, seen along the normal; anticlockwise there.
+void project(const hulls::Outline& outline, const Mat3& rotation, const Vec3& offset, const Frame& frame,
+             bool reverse, Polygon& polygon) {
+  polygon.count = 0;
+  polygon.face = outline.id;
+  for (int k = 0; k < outline.count; ++k) {
+    const int place = reverse && outline.count > 2 ? outline.count - 1 - k : k;
+    const Vec3 x = rotation * outline.corners[static_cast<std::size_t>(place)] + offset;
+    polygon.add({frame.u.dot(x), frame.v.dot(x), frame.n.dot(x), k == 0 ? outline.count - 1 : k - 1, k});
+  }
+}
+
 // The face (or all vertices, of a segment or a point), seen along the normal; anticlockwise there.
 void project(const PatchSide& side, int face, const Mat3& rotation, const Vec3& offset, const Frame& frame,
              bool reverse, Polygon& polygon) {
@@ -159,15 +171,27 @@ void find_patch(const PatchSide& a, const PatchSide& b, const ca::PairPose& pose
   patch.of_b = false;
   patch.count = 0;
   const Mat3 to_a = pose.rotation_a.transpose(), to_b = pose.rotation_b.transpose();
-  const int face_a = best_face(a.facets, to_a * nearest.normal);
-  const int face_b = best_face(b.facets, -(to_b * nearest.normal));
+  const bool curved_a = a.model.curved(), curved_b = b.model.curved();
+  int face_a = best_face(a.facets, to_a * nearest.normal);
+  int face_b = best_face(b.facets, -(to_b * nearest.normal));
+  hulls::Outline outline_a, outline_b;
+  if (curved_a) outline_a = hulls::outline_of(a.model, to_a * nearest.normal);
+  if (curved_b) outline_b = hulls::outline_of(b.model, -(to_b * nearest.normal));
+  if (outline_a.count > 1) face_a = outline_a.id;
+  if (outline_b.count > 1) face_b = outline_b.id;
+  const auto normal_of = [&](bool of_b) -> Vec3 {  // of the face, outward, world
+    const int face = of_b ? face_b : face_a;
+    if (of_b ? curved_b : curved_a)
+      return of_b ? pose.rotation_b * outline_b.normal : pose.rotation_a * outline_a.normal;
+    return of_b ? pose.rotation_b * b.facets.normals[static_cast<std::size_t>(face)]
+                : pose.rotation_a * a.facets.normals[static_cast<std::size_t>(face)];
+  };
   const ca::Convex core_a = a.model.leaf(0), core_b = b.model.leaf(0);
   double best = nearest.lower - slack;
   for (const bool of_b : {false, true}) {
     const int face = of_b ? face_b : face_a;
     if (face < 0) continue;
-    const Vec3 normal = of_b ? Vec3(-(pose.rotation_b * b.facets.normals[static_cast<std::size_t>(face)]))
-                             : Vec3(pose.rotation_a * a.facets.normals[static_cast<std::size_t>(face)]);
+    const Vec3 normal = of_b ? Vec3(-normal_of(of_b)) : normal_of(of_b);
     const double gap = ca::support_gap(core_a, core_b, pose, normal);
     if (gap < best) continue;
     best = gap;
@@ -193,18 +217,22 @@ void find_patch(const PatchSide& a, const PatchSide& b, const ca::PairPose& pose
   };
 
   static thread_local Polygon first, second, shared, other;
-  project(a, face_a, pose.rotation_a, Vec3::Zero(), frame, false, first);
-  project(b, face_b, pose.rotation_b, pose.offset_world, frame, face_b >= 0, second);
+  if (curved_a)
+    project(hulls::outline_of(a.model, to_a * patch.normal), pose.rotation_a, Vec3::Zero(), frame, false,
+            first);
+  else
+    project(a, face_a, pose.rotation_a, Vec3::Zero(), frame, false, first);
+  if (curved_b)
+    project(hulls::outline_of(b.model, -(to_b * patch.normal)), pose.rotation_b, pose.offset_world, frame,
+            true, second);
+  else
+    project(b, face_b, pose.rotation_b, pose.offset_world, frame, face_b >= 0, second);
   double least = far;
   // The one with fewer corners is cut by the other one's sides.
   const bool swap = second.count < first.count;
   const Polygon &subject = swap ? second : first, &cutter = swap ? first : second;
-  const PatchSide& cutting_side = swap ? a : b;
-  const int cutting_face = swap ? face_a : face_b;
   if (cutter.count > 2) {
-    const Vec3 normal = (swap ? pose.rotation_a : pose.rotation_b) *
-                        cutting_side.facets.normals[static_cast<std::size_t>(cutting_face)];
-    const Plane plane(normal, cutter.corners[0], frame);
+    const Plane plane(normal_of(!swap), cutter.corners[0], frame);
     shared = subject;
     for (int k = 0; k < cutter.count; ++k) {
       cut(shared, cutter.corners[static_cast<std::size_t>(k)],

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ch02_hull_hierarchy/model_distance.hpp"
+#include "ch02_hull_hierarchy/outline.hpp"
 
 namespace fc::resting {
 
@@ -44,7 +45,8 @@ struct PatchSide {
 // The patch at a pose. The plane is the one that `nearest` found, or a face's, if that parts the bodies as
 // well up to `slack` (m): a face's normal is exact. Along it the two nearest faces are projected onto each
 // other, and the corners of what they share are the points; those with a gap above `far` (m) are left out.
-// What the faces do not show, the witness points of `nearest` do. A segment or a point counts as a face.
+// What the faces do not show, the witness points of `nearest` do. A segment or a point counts as a face, and
+// so does what a cylinder or a cone turns towards the other body (outline.hpp).
 void find_patch(const PatchSide& a, const PatchSide& b, const ca::PairPose& pose,
                 const ca::GjkResult& nearest, double slack, double far, Patch& patch);
 
