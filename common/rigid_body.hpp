@@ -16,11 +16,15 @@ struct RigidBody {
 
   double mass = 0;                           // kg; 0 for a static or kinematic body
   double inverse_mass = 0;                   // 1/kg
+  Vec3 free_moves = Vec3::Ones();            // 1 or 0: whether it can move along each of the world's axes
+  Vec3 free_turns = Vec3::Ones();            // and turn about each of its own
   Mat3 inertia_body = Mat3::Zero();          // kg m^2, about the centre of mass, shape axes
   Mat3 inverse_inertia_body = Mat3::Zero();  // 1/(kg m^2)
 
   // No impulse moves it: static or kinematic.
   bool is_static() const { return inverse_mass == 0; }
+  // Whether a degree of freedom was taken from it: something holds it, and takes its momentum there.
+  bool is_guided() const { return free_moves != Vec3::Ones() || free_turns != Vec3::Ones(); }
   Pose pose() const { return {orientation.toRotationMatrix(), position}; }
 
   Mat3 inertia_world() const {
@@ -45,6 +49,14 @@ struct RigidBody {
     inverse_mass = 1 / mass;
     inertia_body = properties.inertia;
     inverse_inertia_body = properties.inertia.inverse();
+  }
+  // After set_mass: takes degrees of freedom away. What is left of the inertia acts on the free turns alone.
+  void guide(const Vec3& moves, const Vec3& turns) {
+    free_moves = moves;
+    free_turns = turns;
+    if (turns == Vec3::Ones()) return;
+    const Mat3 free = turns.asDiagonal(), fixed = (Vec3::Ones() - turns).asDiagonal();
+    inverse_inertia_body = free * (free * inertia_body * free + fixed).inverse() * free;
   }
 };
 

@@ -117,7 +117,7 @@ Scene read_checked(const Section& root, const SceneSource& source) {
   check_subject(root, source.chapter);
   if (root.has("shapes")) scene.shapes = read_shapes(root, source);
   if (root.has("pairs")) scene.pairs = read_pairs(root, scene.shapes);
-  if (root.has("bodies")) scene.bodies = read_bodies(root, scene.shapes);
+  if (root.has("bodies")) scene.bodies = read_bodies(root, scene.shapes, source);
   scene.interval = root.get_or(number_value, "interval", scene.interval);
   if (root.has("motions")) scene.motions = resolved_file(root, "motions", source);
   if (root.has("linear")) scene.linear = resolved_file(root, "linear", source);

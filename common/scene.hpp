@@ -67,12 +67,22 @@ struct ShapeSpec {
   SourceMark geometry_where;           // the value of its sphere/box/.../mesh/parts key
 };
 
+// A row of a path: a pose at a time.
+struct PathRow {
+  double time = 0;                      // s
+  Vec3 position = Vec3::Zero();         // m, of the shape's own frame
+  Quat orientation = Quat::Identity();  // normalised
+};
+
 struct BodySpec {
   std::string name;  // empty: none
   int shape = 0;     // index into Scene::shapes
   bool is_static = false;
   bool is_kinematic = false;            // moves with its velocity and spin, whatever it hits
   bool is_sensor = false;               // reports contacts, resolves none
+  Vec3 free_moves = Vec3::Ones();       // 1 or 0: whether it can move along each of the world's axes,
+  Vec3 free_turns = Vec3::Ones();       // and turn about each of its own
+  std::vector<PathRow> path;            // kinematic: where it is when, ascending; empty: no path
   Vec3 position = Vec3::Zero();         // m, of the shape's own frame
   Quat orientation = Quat::Identity();  // normalised
   Vec3 velocity = Vec3::Zero();         // m/s, of the centre of mass

@@ -48,7 +48,7 @@ std::string read_name(const Section& body) {
   return name;
 }
 
-BodySpec read_body(const Section& body, const ShapeIndex& index) {
+BodySpec read_body(const Section& body, const ShapeIndex& index, const SceneSource& source) {
   BodySpec spec;
   spec.where = body.place().mark();
   if (body.has("name")) spec.name = read_name(body);
@@ -68,6 +68,8 @@ BodySpec read_body(const Section& body, const ShapeIndex& index) {
              fmt::format("a static body does not move; remove its '{}' or 'static'", key));
     }
   }
+  if (body.has("fixed")) read_freedom(body, spec);
+  if (body.has("path")) read_path(body, source, spec);
   return spec;
 }
 
@@ -126,7 +128,8 @@ std::vector<PairSpec> read_pairs(const Section& scene, const std::vector<ShapeSp
   return pairs;
 }
 
-std::vector<BodySpec> read_bodies(const Section& scene, const std::vector<ShapeSpec>& shapes) {
+std::vector<BodySpec> read_bodies(const Section& scene, const std::vector<ShapeSpec>& shapes,
+                                  const SceneSource& source) {
   const ShapeIndex index = index_of(shapes);
   std::unordered_map<std::string, std::size_t> named;
   std::vector<BodySpec> bodies;
@@ -138,7 +141,7 @@ std::vector<BodySpec> read_bodies(const Section& scene, const std::vector<ShapeS
         refuse(body.node("name").place, fmt::format("body {} is named {} already; give each its own name",
                                                     known->second, in_quotes(known->first)));
     }
-    append_bodies(body, read_body(body, index), bodies);
+    append_bodies(body, read_body(body, index, source), bodies);
   }
   return bodies;
 }

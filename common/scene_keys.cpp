@@ -94,6 +94,8 @@ std::vector<SceneKey> build_table() {
   {"bodies[].rotation.degrees", 1, on, required, number, "deg", any, "Angle.", "30", {}},
   {"bodies[].velocity", 1, on, "[0, 0, 0]", vector3, "m/s", any, "Velocity of the centre of mass.", "[1, 0, 0]", {}},
   {"bodies[].spin", 1, on, "[0, 0, 0]", vector3, "rad/s", any, "Angular velocity in world axes.", "[0, 0, 1]", {}},
+  {"bodies[].fixed", 3, on, none, words, "", {}, "Degrees of freedom that the body does not have: moves along the world's axes, turns about its shape's own. All six: it stays where it is.", "[x, z, rx]", {"x", "y", "z", "rx", "ry", "rz"}},
+  {"bodies[].path", 4, on, none, file, "", {}, "CSV of poses that a kinematic body goes through, columns t,px,py,pz,qw,qx,qy,qz: straight and with constant spin between rows, at rest before the first and after the last.", "path.csv", {}},
   {"bodies[].grid", 1, on, none, section, "", {}, "Repeats the body on a grid that begins at its position.", "{count: [2, 2, 2], spacing: [1, 1, 1]}", {}},
   {"bodies[].grid.count", 1, on, required, integers3, "1", {1, 1e6}, "Bodies along x, y and z; x counts fastest.", "[10, 10, 10]", {}},
   {"bodies[].grid.spacing", 1, on, required, vector3, "m", any, "Distance of neighbours along x, y and z.", "[1.1, 1.1, 1.1]", {}},

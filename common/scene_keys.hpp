@@ -20,6 +20,7 @@ enum class KeyType {
   quaternion,  // [w, x, y, z], not zero
   inertia,     // [Ixx, Iyy, Izz] or [Ixx, Iyy, Izz, Ixy, Ixz, Iyz]
   body,        // the number of a body, or its name
+  words,       // a list of words of SceneKey::choices, none twice
   points,      // a list of [x, y, z]
   numbers,     // a list of numbers
   matrix,      // a list of rows, each a list of as many numbers

@@ -62,6 +62,8 @@ std::string SceneKey::type_text() const {
       return "[Ixx, Iyy, Izz] or [Ixx, Iyy, Izz, Ixy, Ixz, Iyz]";
     case KeyType::body:
       return "number or name of a body";
+    case KeyType::words:
+      return "list of " + one_of(choices, ", ");
     case KeyType::points:
       return "list of [x, y, z]";
     case KeyType::numbers:

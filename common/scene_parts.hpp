@@ -19,7 +19,13 @@ std::vector<ShapeSpec> read_shapes(const Section& scene, const SceneSource& sour
 std::vector<PairSpec> read_pairs(const Section& scene, const std::vector<ShapeSpec>& shapes);
 
 // Bodies with their grids expanded.
-std::vector<BodySpec> read_bodies(const Section& scene, const std::vector<ShapeSpec>& shapes);
+std::vector<BodySpec> read_bodies(const Section& scene, const std::vector<ShapeSpec>& shapes,
+                                  const SceneSource& source);
+
+// What makes a body move in its own way: `fixed`, `path`. They are in the specification's place of other
+// keys, and must not contradict them.
+void read_freedom(const Section& body, BodySpec& spec);
+void read_path(const Section& body, const SceneSource& source, BodySpec& spec);
 
 std::vector<ContactSpec> read_contacts(const Section& scene, const std::vector<BodySpec>& bodies);
 

@@ -181,6 +181,21 @@ int body_value(const YamlNode& node, const SceneKey& key, const std::vector<std:
                                    : "the nearest name is " + in_quotes(nearest(node.text, given))));
 }
 
+std::vector<std::string> words_value(const YamlNode& node, const SceneKey& key) {
+  if (node.kind != YamlNode::Kind::list || node.items.empty()) refuse_type(node, key, "a list of words");
+  std::vector<std::string> words;
+  for (const YamlPtr& item : node.items) {
+    const std::string word = text_value(*item, key);
+    if (std::find(key.choices.begin(), key.choices.end(), word) == key.choices.end())
+      refuse(item->place, fmt::format("{} is none of {}; write e.g. {}: {}", in_quotes(word),
+                                      one_of(key.choices, ", "), key.last_name(), key.example));
+    if (std::find(words.begin(), words.end(), word) != words.end())
+      refuse(item->place, fmt::format("{} is given twice; keep one of them", in_quotes(word)));
+    words.push_back(word);
+  }
+  return words;
+}
+
 Mat3 inertia_value(const YamlNode& node, const SceneKey& key) {
   const bool is_diagonal = node.items.size() == 3;
   const auto& items = items_of(node, key, is_diagonal ? 3 : 6, key.type_text());
@@ -249,6 +264,9 @@ void check_value(const YamlNode& node, const SceneKey& key) {
       return;
     case KeyType::body:
       is_plain_number(node) ? void(integer_value(node, key)) : void(text_value(node, key));
+      return;
+    case KeyType::words:
+      words_value(node, key);
       return;
     case KeyType::inertia:
       inertia_value(node, key);

@@ -24,6 +24,7 @@ Quat quaternion_value(const YamlNode& node, const SceneKey& key);  // normalised
 Vec3 direction_value(const YamlNode& node, const SceneKey& key);   // a vector3, made unit; not zero
 // The number of a body that is called by its number or its name. `names`: of all bodies; empty for none.
 int body_value(const YamlNode& node, const SceneKey& key, const std::vector<std::string>& names);
+std::vector<std::string> words_value(const YamlNode& node, const SceneKey& key);
 Mat3 inertia_value(const YamlNode& node, const SceneKey& key);
 std::vector<Vec3> points_value(const YamlNode& node, const SceneKey& key);
 VecX numbers_value(const YamlNode& node, const SceneKey& key);

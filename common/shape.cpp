@@ -302,7 +302,10 @@ RigidBody make_body(const Shape& shape, const BodySpec& spec) {
   if (spec.is_static) return body;
   body.velocity = spec.velocity;
   body.spin = spec.spin;
-  if (shape.mass.mass > 0 && !spec.is_kinematic) body.set_mass(shape.mass);
+  const bool stays = spec.free_moves.isZero(0) && spec.free_turns.isZero(0);
+  if (!(shape.mass.mass > 0) || spec.is_kinematic || stays) return body;
+  body.set_mass(shape.mass);
+  body.guide(spec.free_moves, spec.free_turns);
   return body;
 }
 

@@ -16,7 +16,7 @@ constexpr double kUnitNormal = 1e-9;
 struct Side {
   int contact;       // the row
   double sign;       // +1 on B, -1 on A
-  Vec3 normal;       // the row of J for the body's velocity, without the sign
+  Vec3 normal;       // the row of J for the body's velocity, without the sign, along what is free
   Vec3 arm;          // r x n: the row of J for the body's spin
   Vec3 spin_change;  // I^-1 (r x n): what a unit impulse does to the spin
 };
@@ -82,7 +82,8 @@ ImpactProblem assemble(std::span<const RigidBody> bodies, std::span<const Contac
       const auto index = static_cast<std::size_t>(on_b ? contact.body_b : contact.body_a);
       const RigidBody& body = bodies[index];
       if (body.is_static()) continue;
-      Side side{static_cast<int>(i), on_b ? 1.0 : -1.0, contact.normal, Vec3::Zero(), Vec3::Zero()};
+      Side side{static_cast<int>(i), on_b ? 1.0 : -1.0, contact.normal.cwiseProduct(body.free_moves),
+                Vec3::Zero(), Vec3::Zero()};
       if (on_b ? contact.turns_b : contact.turns_a) {
         side.arm = (contact.point - body.position).cross(contact.normal);
         side.spin_change = body.inverse_inertia_world() * side.arm;
@@ -101,10 +102,11 @@ DelassusOperator::DelassusOperator(std::span<const RigidBody> bodies, std::span<
   for (const Contact& contact : contacts) {
     const auto part = [&](int index, bool turns) -> Part {
       const RigidBody& body = bodies[static_cast<std::size_t>(index)];
-      if (body.is_static()) return {-1, Vec3::Zero(), Vec3::Zero(), 0};
-      if (!turns) return {index, Vec3::Zero(), Vec3::Zero(), body.inverse_mass};
+      if (body.is_static()) return {-1, Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), 0};
+      const Vec3 moves = contact.normal.cwiseProduct(body.free_moves);
+      if (!turns) return {index, moves, Vec3::Zero(), Vec3::Zero(), body.inverse_mass};
       const Vec3 arm = (contact.point - body.position).cross(contact.normal);
-      return {index, arm, body.inverse_inertia_world() * arm, body.inverse_mass};
+      return {index, moves, arm, body.inverse_inertia_world() * arm, body.inverse_mass};
     };
     rows_.push_back(
         {contact.normal, part(contact.body_a, contact.turns_a), part(contact.body_b, contact.turns_b)});
@@ -119,7 +121,7 @@ void DelassusOperator::apply(const VecX& z, VecX& v) {
     const auto push = [&](const Part& part, double along_n) {
       if (part.body < 0) return;
       Change& change = changes_[static_cast<std::size_t>(part.body)];
-      change.velocity += along_n * part.inverse_mass * rows_[i].normal;
+      change.velocity += along_n * part.inverse_mass * part.moves;
       change.spin += along_n * part.spin_change;
     };
     push(rows_[i].a, -impulse);
@@ -143,7 +145,7 @@ VecX DelassusOperator::diagonal() const {
     double sum = 0;
     for (const Part& part : {rows_[i].a, rows_[i].b}) {
       if (part.body >= 0)
-        sum += part.inverse_mass * rows_[i].normal.squaredNorm() + part.arm.dot(part.spin_change);
+        sum += part.inverse_mass * part.moves.squaredNorm() + part.arm.dot(part.spin_change);
     }
     diagonal[static_cast<Eigen::Index>(i)] = sum;
   }

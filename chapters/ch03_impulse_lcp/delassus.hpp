@@ -48,6 +48,7 @@ class DelassusOperator {
   // A.
   struct Part {
     int body;          // -1: static
+    Vec3 moves;        // the normal, along what the body is free to move
     Vec3 arm;          // m, r x n
     Vec3 spin_change;  // 1/(kg m), I^-1 (r x n)
     double inverse_mass;

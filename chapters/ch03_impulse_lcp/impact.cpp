@@ -139,7 +139,7 @@ void apply_impulse(std::span<RigidBody> bodies, const Contact& contact, double i
     RigidBody& body = bodies[static_cast<std::size_t>(on_b ? contact.body_b : contact.body_a)];
     if (body.is_static()) continue;
     const Vec3 push = (on_b ? impulse : -impulse) * contact.normal;
-    body.velocity += body.inverse_mass * push;
+    body.velocity += body.inverse_mass * push.cwiseProduct(body.free_moves);
     if (!(on_b ? contact.turns_b : contact.turns_a)) continue;
     body.spin += body.inverse_inertia_world() * (contact.point - body.position).cross(push);
   }

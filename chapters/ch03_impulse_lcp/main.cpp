@@ -242,6 +242,11 @@ std::vector<Effect> explain(const Scene& scene) {
       if (const auto pairs = scene.mark("pairs"))
         effects.push_back({"restitution", line(*pairs), "right-hand side (1 + epsilon) v", 0});
   }
+  for (const BodySpec& body : scene.bodies) {
+    if (body.free_moves.isOnes(0) && body.free_turns.isOnes(0)) continue;
+    effects.push_back({"fixed degrees of freedom", line(body.where), "zeros in the inverse masses", 0});
+    break;
+  }
   return effects;
 }
 

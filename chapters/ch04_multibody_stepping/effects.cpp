@@ -28,6 +28,10 @@ std::string declared_by_bodies(const Scene& scene, Has has) {
          first->where.text();
 }
 
+bool is_guided(const BodySpec& body) {
+  return !body.free_moves.isOnes(0) || !body.free_turns.isOnes(0);
+}
+
 }  // namespace
 
 // ANCHOR: effects
@@ -43,6 +47,8 @@ Effects effects_of(const Scene& scene) {
   for (const BodySpec& body : scene.bodies) {
     effects.kinematic |= body.is_kinematic;
     effects.sensors |= body.is_sensor;
+    effects.paths |= !body.path.empty();
+    effects.guided |= is_guided(body);
   }
   return effects;
 }
@@ -88,6 +94,12 @@ std::vector<Effect> explain(const Scene& scene) {
   if (on.kinematic)
     list.push_back({"kinematic", declared_by_bodies(scene, [](const BodySpec& b) { return b.is_kinematic; }),
                     "bodies of infinite mass that move; their work is reported", 0});
+  if (on.paths)
+    list.push_back({"path", declared_by_bodies(scene, [](const BodySpec& b) { return !b.path.empty(); }),
+                    "frames are cut where a kinematic body takes a new course", 0});
+  if (on.guided)
+    list.push_back({"fixed degrees of freedom", declared_by_bodies(scene, is_guided),
+                    "zeros in the inverse masses; gravity does nothing along them", 0});
   if (on.sensors)
     list.push_back({"sensor", declared_by_bodies(scene, [](const BodySpec& b) { return b.is_sensor; }),
                     "sensors.csv; no rows in any LCP", 0});

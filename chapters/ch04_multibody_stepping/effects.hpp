@@ -13,9 +13,10 @@
 namespace fc::world {
 
 // Which part of the pipeline each effect changes:
-//   Motion      gravity, drag, gyroscopic, kinematic: the motions that a body may have between two events
-//   Gap rule    sensor: a pair that is told of, and not stopped; sleep: a body that no pair is asked about
-//   Impact law  restitution: the right-hand side; rotation: the rows' angular parts
+//   Motion      gravity, drag, gyroscopic, kinematic, path: the motions that a body may have between two
+//   events Gap rule    sensor: a pair that is told of, and not stopped; sleep: a body that no pair is asked
+//   about Impact law  restitution: the right-hand side; rotation: the rows' angular parts;
+//               fixed: zeros in the inverse masses
 struct Effects {
   std::optional<Vec3> gravity;     // m/s^2
   std::optional<DragSpec> drag;    // 1/s
@@ -26,6 +27,8 @@ struct Effects {
   bool restitution = false;
   bool kinematic = false;
   bool sensors = false;
+  bool paths = false;   // a kinematic body follows one
+  bool guided = false;  // a body lacks degrees of freedom
   // Always on; the study turns them off, to measure what they are worth.
   bool swept = true;  // pairs whose swept boxes are apart are not queried
   bool arms = false;  // the zero lever arms of balls are computed, too

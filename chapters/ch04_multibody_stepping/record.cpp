@@ -74,7 +74,8 @@ void Recorder::start(const World& world) {
 void Recorder::instant(const World& world, double time) {
   for (; impacts_seen_ < impacts_.size(); ++impacts_seen_) {
     const lcp::Contact& c = impacts_[impacts_seen_].contact;
-    for (const int body : {c.body_a, c.body_b}) kinks_.push_back({body, time, world.state_at(body, time)});
+    for (const int body : {c.body_a, c.body_b})
+      kinks_.push_back({body, time, world.state_at(body, time - world.part_start)});
   }
 }
 

@@ -155,7 +155,9 @@ class Stepper {
     for (const lcp::Contact& contact : island.contacts)
       for (const int number : {contact.body_a, contact.body_b}) {
         const Body& body = world_.bodies[number];
-        if (!world_.yields(number) || body.asleep || body.supported || is_still(body)) return false;
+        if (!world_.yields(number) || body.state.free_moves != Vec3::Ones() || body.asleep ||
+            body.supported || is_still(body))
+          return false;
       }
     return true;
   }
@@ -223,11 +225,14 @@ class Stepper {
         if (contact.restitution > 0 || !bears_weight(contact.normal, gravity)) continue;
         const int upper = local.numbers[static_cast<std::size_t>(pull > 0 ? contact.body_a : contact.body_b)],
                   lower = local.numbers[static_cast<std::size_t>(pull > 0 ? contact.body_b : contact.body_a)];
-        const bool falls = world_.yields(lower) && !world_.bodies[lower].supported;
+        const bool falls = world_.yields(lower) && !world_.bodies[lower].supported &&
+                           !world_.gravity_on(world_.bodies[lower].state).isZero(0);
         if (falls || world_.bodies[upper].supported || !world_.yields(upper)) continue;
         world_.bodies[upper].supported = more = true;
         const int place = pull > 0 ? contact.body_a : contact.body_b;
-        const Vec3 more_velocity = (dt_ - now) * (gravity - pull * contact.normal);
+        const Vec3 more_velocity =
+            (dt_ - now) *
+            (gravity - pull * contact.normal).cwiseProduct(world_.bodies[upper].state.free_moves);
         const bool into =
             std::any_of(local.contacts.begin(), local.contacts.end(), [&](const lcp::Contact& c) {
               const double along = c.normal.dot(more_velocity);
@@ -267,7 +272,10 @@ void Stepper::solve(const Island& island, double now) {
   report_.energy_gain = std::max(report_.energy_gain, after.kinetic - before.kinetic - impact.kinematic_work);
   report_.energy_error =
       std::max(report_.energy_error, std::abs(after.kinetic - before.kinetic - impact.energy_identity));
-  const bool free = local.numbers.size() == island.bodies.size();  // no static body takes part
+  // No static body takes part, and nothing holds one from outside.
+  const bool free = local.numbers.size() == island.bodies.size() &&
+                    std::none_of(local.states.begin(), local.states.end(),
+                                 [](const RigidBody& body) { return body.is_guided(); });
   if (free && before.linear_size > 0)
     report_.momentum_error =
         std::max({report_.momentum_error, (after.linear - before.linear).norm() / before.linear_size,
@@ -301,11 +309,32 @@ void Stepper::solve(const Island& island, double now) {
   new_courses(changed, now);
 }
 
+// A frame that is cut where bodies with a path take new courses.
+StepReport step_in_parts(World& world, double dt, const Listeners& listeners) {
+  StepReport all;
+  all.min_gap = std::numeric_limits<double>::infinity();
+  double length = 0;
+  for (double start = 0; start < dt; start += length) {
+    length = until_next_row(world, dt - start);
+    world.part_start = start;
+    const StepReport part = step(world, length, from(start, listeners));
+    add(part, all);
+    all.step_ns += part.step_ns;
+    all.ccd_ns += part.ccd_ns;
+  }
+  world.part_start = 0;
+  return all;
+}
+
 }  // namespace
 
 StepReport step(World& world, double dt, const Listeners& listeners) {
   if (!(dt > 0 && std::isfinite(dt)))
     throw std::invalid_argument(fmt::format("step: dt is {} s; it must be finite and > 0", dt));
+  if (world.effects.paths) {
+    if (until_next_row(world, dt) < dt) return step_in_parts(world, dt, listeners);
+    follow_paths(world, dt);
+  }
   const Stopwatch watch;
   StepReport report;
   report.min_gap = std::numeric_limits<double>::infinity();

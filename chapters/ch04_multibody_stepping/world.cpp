@@ -129,7 +129,7 @@ ca::Motion World::motion(int body, double time) const {
 
 // ANCHOR: motion
 void World::add_forces(const Body& body, ca::Motion& motion) const {
-  if (effects.gravity && !body.supported) motion.acceleration = *effects.gravity;
+  if (effects.gravity && !body.supported) motion.acceleration = gravity_on(body.state);
   if (!effects.drag) return;
   motion.drag = effects.drag->linear;
   motion.spin_drag = effects.drag->angular;
@@ -185,7 +185,7 @@ void World::set_course(int body, const RigidBody& state, double time) {
   b.held = b.asleep = b.steered = false;
   b.group = -1;
   b.group_velocity = Vec3::Zero();
-  if (!effects.gyroscopic || !yields(body)) return;
+  if (!effects.gyroscopic || !yields(body) || state.free_turns != Vec3::Ones()) return;
   ca::Motion motion(state);
   motion.turn_freely(principal[b.shape]);
   b.free = motion.free;
@@ -197,6 +197,7 @@ void World::carry(int body, double time, double name) {
   Body& b = bodies[body];
   const double elapsed = time - b.time;
   const Vec3 group_velocity = b.group >= 0 ? course(body, time).velocity : Vec3(Vec3::Zero());
+  b.clock += time - name;
   b.state = state_at(body, time);
   b.group_velocity = group_velocity;
   if (b.free && b.steered) {  // from here on it turns freely again
@@ -278,8 +279,13 @@ World build_world(const Scene& scene) {
     Body body;
     body.shape = spec.shape;
     body.sensor = spec.is_sensor;
+    RigidBody state = make_body(world.shapes[spec.shape], spec);
+    if (!spec.path.empty()) {
+      body.path = std::make_shared<const Path>(spec.path, world.shapes[spec.shape]);
+      state = body.path->at(0, 0);
+    }
     world.bodies.push_back(body);
-    world.set_course(static_cast<int>(world.bodies.size()) - 1, make_body(world.shapes[spec.shape], spec), 0);
+    world.set_course(static_cast<int>(world.bodies.size()) - 1, state, 0);
   }
   world.tolerance = std::max(scene.ccd.tolerance, least_tolerance(world));
   refuse_overlaps(world, scene);

@@ -11,6 +11,7 @@
 #include "ch02_hull_hierarchy/advance.hpp"
 #include "ch03_impulse_lcp/impact.hpp"
 #include "ch04_multibody_stepping/effects.hpp"
+#include "ch04_multibody_stepping/paths.hpp"
 #include "ch04_multibody_stepping/schedule.hpp"
 #include "common/pair_rules.hpp"
 #include "common/scene.hpp"
@@ -36,6 +37,10 @@ struct Body {
   bool supported = false;              // for this frame: what it lies on cancels gravity (chapter 5)
   bool lies = false;                   // held, and on nothing that moves
   bool foreseen = false;  // its way through the frame is proved, whatever comes near it (chapter 5)
+  // Of a kinematic body that follows one, and the time at which the frame (or the part of it that is being
+  // stepped) began, s.
+  std::shared_ptr<const Path> path;
+  double clock = 0;
   // Chapter 5: it is moved by this, too, until it takes a new course; no velocity knows of it.
   bool steered = false;
   Vec3 steer_velocity = Vec3::Zero(), steer_spin = Vec3::Zero();  // m/s, rad/s
@@ -71,6 +76,7 @@ struct World {
   std::vector<std::pair<int, int>> sighted;  // sensors and what touches them now, in order
   double tolerance = 1e-6;                   // m; the scene's, or what rounding allows at least
   std::int64_t max_pairs = 1'000'000;        // of nodes, for one search; it then goes on from where it got to
+  double part_start = 0;  // s, in the frame: from where the times of its bodies count, if it is cut in parts
   double touch = 0;  // m, how near is a contact when something is hit; no less than the tolerance (chapter 5)
   double reserve = 0;     // m, half of which a pair has left when it is stopped; 0: the tolerance (chapter 5)
   double rest_speed = 0;  // m/s, what comes in no faster does not bounce, and is then supported (chapter 5)
@@ -97,7 +103,8 @@ struct World {
   bool stays(int body) const {
     const Body& b = bodies[body];
     if (((b.held && b.group < 0) || b.asleep) && !b.steered) return true;
-    const bool falls = !b.state.is_static() && effects.gravity && !b.supported;
+    const bool falls =
+        !b.state.is_static() && effects.gravity && !b.supported && !b.state.free_moves.isZero(0);
     const RigidBody moving = as_it_moves(b, b.state);
     return !falls && moving.velocity.isZero(0) && moving.spin.isZero(0);
   }
@@ -117,6 +124,8 @@ struct World {
   bool carries(int body) const { return !yields(body) && !stays(body); }
   // Whether an impulse can move the body.
   bool yields(int body) const { return !bodies[body].state.is_static(); }
+  // The acceleration that gravity gives a body, where there is gravity: nothing along what is fixed.
+  Vec3 gravity_on(const RigidBody& state) const { return effects.gravity->cwiseProduct(state.free_moves); }
   // What the effects make of a body's motion from the time on at which its state stands: forces alone, or
   // all.
   void add_forces(const Body& body, ca::Motion& motion) const;

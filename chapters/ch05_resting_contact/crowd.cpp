@@ -12,6 +12,15 @@ constexpr int kPlainSweeps = 3;    // at the end, without conjugate directions
 
 }  // namespace
 
+// L with L L' = the inverse inertia; of a body that may not turn about all of its axes it is found in these,
+// where the fixed ones stand apart.
+Mat3 root_of(const RigidBody& body, const Mat3& inverse_inertia) {
+  if (body.free_turns == Vec3::Ones()) return inverse_inertia.llt().matrixL();
+  const Mat3 free = body.free_turns.asDiagonal(), fixed = (Vec3::Ones() - body.free_turns).asDiagonal();
+  const Mat3 lower = (body.inverse_inertia_body + fixed).llt().matrixL();
+  return body.orientation.toRotationMatrix() * lower * free;
+}
+
 template <class Real>
 void Rows<Real>::begin(std::span<const RigidBody> bodies, std::span<const double> reaches) {
   rows_.clear();
@@ -21,10 +30,15 @@ void Rows<Real>::begin(std::span<const RigidBody> bodies, std::span<const double
   places_.clear();
   starts_.clear();
   for (const RigidBody& body : bodies) {
-    Mass mass{body.inverse_mass, std::sqrt(body.inverse_mass), 0, Mat3::Zero(), Mat3::Zero()};
+    Mass mass{body.inverse_mass,
+              body.inverse_mass * body.free_moves,
+              std::sqrt(body.inverse_mass) * body.free_moves,
+              0,
+              Mat3::Zero(),
+              Mat3::Zero()};
     if (!body.is_static()) {
       mass.turn = body.inverse_inertia_world();
-      mass.turn_root = mass.turn.llt().matrixL();
+      mass.turn_root = root_of(body, mass.turn);
       const double reach = reaches.empty() ? 0 : reaches[masses_.size()];
       mass.reach = static_cast<Real>(std::max(body.inverse_mass, reach * reach * mass.turn.norm()));
     }
@@ -55,8 +69,8 @@ int Rows<Real>::add(const lcp::Contact& c, double allowed, double impulse) {
   const Mass &a = masses_[at(c.body_a)], &b = masses_[at(c.body_b)];
   const Twist &start_a = starts_[at(c.body_a)], &start_b = starts_[at(c.body_b)];
   Eigen::Matrix<double, 6, 1> end_a, end_b;
-  end_a << -a.root * c.normal, -(a.turn_root.transpose() * arms.a);
-  end_b << b.root * c.normal, b.turn_root.transpose() * arms.b;
+  end_a << -a.root.cwiseProduct(c.normal), -(a.turn_root.transpose() * arms.a);
+  end_b << b.root.cwiseProduct(c.normal), b.turn_root.transpose() * arms.b;
   const double root = std::sqrt(end_a.squaredNorm() + end_b.squaredNorm());
   Line line{Vec8::Zero(), Vec8::Zero()};
   line.a.template head<6>() = (end_a / root).template cast<Real>();
@@ -106,7 +120,7 @@ void Rows<Real>::work_out(int body) {
     turn += is_a ? Vec3(-z * arms.a) : Vec3(z * arms.b);
   });
   const Mass& mass = masses_[at(body)];
-  velocities_[at(body)].linear = starts_[at(body)].linear + mass.inverse * push;
+  velocities_[at(body)].linear = starts_[at(body)].linear + mass.move.cwiseProduct(push);
   velocities_[at(body)].angular = starts_[at(body)].angular + mass.turn * turn;
 }
 
@@ -278,7 +292,7 @@ template <class Real>
 typename Rows<Real>::Twist Rows<Real>::displacement(int body) const {
   const Eigen::Matrix<double, 8, 1> y = displacements_[at(body)].template cast<double>();
   const Mass& mass = masses_[at(body)];
-  return {mass.root * y.template head<3>(), mass.turn_root * y.template segment<3>(3)};
+  return {mass.root.cwiseProduct(y.template head<3>()), mass.turn_root * y.template segment<3>(3)};
 }
 
 template <class Real>

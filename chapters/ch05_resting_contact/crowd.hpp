@@ -88,7 +88,8 @@ class Rows {
     double allowed;     // m/s
   };
   struct Mass {
-    double inverse, root;  // 1/kg, and its root
+    double inverse;        // 1/kg
+    Vec3 move, root;       // the same along each axis that is free, and its root
     Real reach;            // m^2 by which no point goes farther, if L^-1 of the body's displacement is one
     Mat3 turn, turn_root;  // 1/(kg m^2), and L
   };

@@ -102,7 +102,7 @@ MoreauJean::Report MoreauJean::step(world::World& world, const world::OnImpact& 
     bounce[i] = c.restitution * lcp::contact_velocity(bodies_, c);
   }
   for (RigidBody& body : bodies_)
-    if (world.effects.gravity && !body.is_static()) body.velocity += dt_ * *world.effects.gravity;
+    if (world.effects.gravity && !body.is_static()) body.velocity += dt_ * world.gravity_on(body);
   const lcp::ImpactProblem rows = lcp::assemble(bodies_, contacts_);
   const VecX b = rows.v_before + bounce;
   lcp::LcpResult result;

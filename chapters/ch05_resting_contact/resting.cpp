@@ -38,8 +38,18 @@ RestReport Resting::step(world::World& world, const world::Listeners& listeners)
   halvings_ = level;
   was_far_.swap(is_far_);
   is_far_.assign(world.bodies.size(), 0);
-  for (int part = 0; part < parts; ++part)
-    advance(world, {frame_ / parts * part, frame_ / parts, level}, listeners, report);
+  for (int part = 0; part < parts; ++part) {
+    double start = frame_ / parts * part, left = frame_ / parts;
+    // Cut where a body with a path takes a new course.
+    for (double length = left; left > 0; start += length, left -= length) {
+      if (world.effects.paths) {
+        length = world::until_next_row(world, left);
+        world::follow_paths(world, length);
+      }
+      advance(world, {start, length, level}, listeners, report);
+    }
+  }
+  world.part_start = 0;
   fall_asleep(world, report);
   report.step.step_ns = watch.ns();
   report.step.ccd_ns = report.step.step_ns - report.step.lcp_ns;
@@ -78,7 +88,7 @@ bool Resting::finish(world::World& world, const Part& part, const world::Listene
                      RestReport& report) {
   const RestReport before = report;
   settle(world, report);
-  const world::Listeners later = from(part.start, listeners);
+  const world::Listeners later = world::from(part.start, listeners);
   const auto sighted = world.sighted;
   told_.clear();
   world::Listeners first;  // what is told cannot be taken back: it waits
@@ -109,53 +119,8 @@ bool Resting::finish(world::World& world, const Part& part, const world::Listene
   tell(world, later, report);
   if (later.instant) world.bodies.swap(at_start);
   for (const auto& tell_now : told_) tell_now();
-  add(rest, report.step);
+  world::add(rest, report.step);
   return true;
-}
-
-// The same listeners, for a part of a frame.
-world::Listeners Resting::from(double start, const world::Listeners& listeners) {
-  if (start == 0) return listeners;
-  world::Listeners later;
-  if (listeners.impact)
-    later.impact = [start, &listeners](world::ImpactRecord impact) {
-      impact.time += start;
-      listeners.impact(impact);
-    };
-  if (listeners.instant)
-    later.instant = [start, &listeners](const world::World& world, double time) {
-      listeners.instant(world, start + time);
-    };
-  if (listeners.sighting)
-    later.sighting = [start, &listeners](world::Sighting sighting) {
-      sighting.time += start;
-      listeners.sighting(sighting);
-    };
-  return later;
-}
-
-void Resting::add(const world::StepReport& part, world::StepReport& all) {
-  all.contacts += part.contacts;
-  all.impacts += part.impacts;
-  all.lcp_rows += part.lcp_rows;
-  all.solves += part.solves;
-  all.lcp_residual = std::max(all.lcp_residual, part.lcp_residual);
-  all.min_gap = std::min(all.min_gap, part.min_gap);
-  all.max_penetration = std::max(all.max_penetration, part.max_penetration);
-  all.lost_time += part.lost_time;
-  all.momentum_error = std::max(all.momentum_error, part.momentum_error);
-  all.energy_error = std::max(all.energy_error, part.energy_error);
-  all.energy_gain = std::max(all.energy_gain, part.energy_gain);
-  all.kinematic_work += part.kinematic_work;
-  all.slept_energy += part.slept_energy;
-  all.falls_asleep += part.falls_asleep;
-  all.wakes += part.wakes;
-  all.sightings += part.sightings;
-  all.pairs += part.pairs;
-  all.advances += part.advances;
-  all.queries += part.queries;
-  all.node_pairs += part.node_pairs;
-  all.lcp_ns += part.lcp_ns;
 }
 
 // Where everything stands, which contacts there are, and what gravity will have made of the velocities by the
@@ -164,6 +129,7 @@ void Resting::add(const world::StepReport& part, world::StepReport& all) {
 void Resting::begin(world::World& world, const Part& part, RestReport& report) {
   const double share = part.length / dt_;  // of the impulses that were
   dt_ = part.length;
+  world.part_start = part.start;
   world.rest_speed = shell_.envelope() / dt_;
   given_.clear();
   start_.clear();
@@ -173,7 +139,7 @@ void Resting::begin(world::World& world, const Part& part, RestReport& report) {
     given_.push_back(body.state);
     start_.push_back(body.state);
     if (world.effects.gravity && !body.state.is_static() && !body.was_held && !body.asleep)
-      start_.back().velocity += dt_ * *world.effects.gravity;
+      start_.back().velocity += dt_ * world.gravity_on(body.state);
     const bool moves = !world.stays(static_cast<int>(start_.size()) - 1);
     sweeps_.push_back({body.state.position, 0, 0});
     if (!moves) continue;

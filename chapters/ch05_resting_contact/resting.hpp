@@ -101,8 +101,6 @@ class Resting {
   void stop_crowd(world::World& world, RestReport& report);
   void keep_for_halves();
   void tell(const world::World& world, const world::Listeners& listeners, RestReport& report);
-  static void add(const world::StepReport& part, world::StepReport& all);
-  static world::Listeners from(double start, const world::Listeners& listeners);
   static std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
   Shell shell_;
