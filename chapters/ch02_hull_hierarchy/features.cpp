@@ -381,9 +381,10 @@ void sort_and_merge(std::vector<FeaturePair>& pairs, double tolerance) {
   });
   // Leaves share vertices and edges: a pair of features is found once for each pair of their leaves.
   pairs.erase(std::unique(pairs.begin(), pairs.end(),
-                          [](const FeaturePair& x, const FeaturePair& y) {
-                            return x.kind_a == y.kind_a && x.id_a == y.id_a && x.kind_b == y.kind_b &&
-                                   x.id_b == y.id_b && x.normal.dot(y.normal) > 0;
+                          [&](const FeaturePair& x, const FeaturePair& y) {
+                            return (x.point_a - y.point_a).norm() <= tolerance && x.kind_a == y.kind_a &&
+                                   x.id_a == y.id_a && x.kind_b == y.kind_b && x.id_b == y.id_b &&
+                                   x.normal.dot(y.normal) > 0;
                           }),
               pairs.end());
   std::vector<FeaturePair> kept;

@@ -57,6 +57,75 @@ TEST(BuildShape, Sphere) {
   EXPECT_EQ(shape.restitution, 0.25);
 }
 
+PartSpec part_of(decltype(PartSpec::geometry) geometry, const Vec3& position,
+                 const Quat& turn = Quat::Identity()) {
+  return {std::move(geometry), position, turn, {}};
+}
+
+TEST(BuildShape, CylinderAndConeHaveTheMassOfTheirFormulas) {
+  const double pi = std::numbers::pi, r = 0.3, h = 0.8;
+  ShapeSpec spec = spec_of(CylinderSpec{r, h});
+  spec.density = 700;
+  const Shape cylinder = build_shape(spec, 0);
+  const double m = 700 * pi * r * r * h;
+  EXPECT_NEAR(cylinder.mass.mass, m, 1e-12 * m);
+  EXPECT_NEAR(cylinder.mass.inertia(2, 2), m * r * r / 2, 1e-12 * m);
+  EXPECT_NEAR(cylinder.mass.inertia(0, 0), m * (3 * r * r + h * h) / 12, 1e-12 * m);
+  EXPECT_NEAR(cylinder.reach, std::hypot(r, h / 2), 1e-15);
+  EXPECT_LT((bounds_of(cylinder).max() - Vec3(r, r, h / 2)).norm(), 1e-15);
+  spec.geometry = ConeSpec{r, h};
+  const Shape cone = build_shape(spec, 0);
+  EXPECT_NEAR(cone.mass.mass, m / 3, 1e-12 * m);
+  EXPECT_NEAR(cone.mass.center_of_mass.z(), -h / 4, 1e-15);
+  EXPECT_NEAR(cone.mass.inertia(2, 2), 0.3 * m / 3 * r * r, 1e-12 * m);
+  EXPECT_NEAR(cone.mass.inertia(1, 1), m / 3 * (3.0 / 20 * r * r + 3.0 / 80 * h * h), 1e-12 * m);
+  EXPECT_NEAR(cone.core.vertices[1].z(), 0.75 * h, 1e-15);  // the apex, from the centre of mass
+}
+
+TEST(BuildShape, ACompoundIsTheSumOfItsParts) {
+  // A dumbbell: two balls and a bar along x.
+  const Quat along_x(Eigen::AngleAxisd(std::numbers::pi / 2, Vec3::UnitY()));
+  ShapeSpec spec =
+      spec_of(CompoundSpec{{part_of(SphereSpec{0.2}, {-0.5, 1, 0}), part_of(SphereSpec{0.2}, {0.5, 1, 0}),
+                            part_of(CylinderSpec{0.1, 1}, {0, 1, 0}, along_x)}});
+  spec.density = 1000;
+  const Shape shape = build_shape(spec, 0);
+  const double pi = std::numbers::pi, ball = 1000 * 4.0 / 3 * pi * 0.008, bar = 1000 * pi * 0.01;
+  EXPECT_NEAR(shape.mass.mass, 2 * ball + bar, 1e-10);
+  EXPECT_LT((shape.mass.center_of_mass - Vec3(0, 1, 0)).norm(), 1e-14);
+  const double along = 2 * 0.4 * ball * 0.04 + bar * 0.01 / 2;
+  const double across = 2 * ball * (0.4 * 0.04 + 0.25) + bar * (3 * 0.01 + 1) / 12;
+  EXPECT_LT((shape.mass.inertia - Mat3(Vec3(along, across, across).asDiagonal())).norm(), 1e-12 * across);
+  EXPECT_EQ(shape.mass_source, "density, each part counted in full");
+  EXPECT_FALSE(shape.convex());
+  EXPECT_NEAR(shape.reach, 0.7, 1e-14);
+  EXPECT_LT((bounds_of(shape).max() - Vec3(0.7, 0.2, 0.2)).norm(), 1e-14);
+  // A brick in two halves is the brick.
+  spec.geometry =
+      CompoundSpec{{part_of(BoxSpec{{1, 2, 3}}, {0.5, 0, 0}), part_of(BoxSpec{{1, 2, 3}}, {1.5, 0, 0})}};
+  const Shape halves = build_shape(spec, 0);
+  EXPECT_LT((halves.mass.inertia - box_mass({2, 2, 3}, 1000).inertia).norm(), 1e-9);
+  EXPECT_LT((halves.mass.center_of_mass - Vec3(1, 0, 0)).norm(), 1e-14);
+}
+
+TEST(MakeBody, FixedDegreesOfFreedomHaveNoInverseMass) {
+  ShapeSpec spec = spec_of(BoxSpec{{1, 2, 3}});
+  spec.mass = 4;
+  spec.inertia = (Mat3() << 3, 0.5, 0.2, 0.5, 4, 0.1, 0.2, 0.1, 5).finished();
+  const Shape shape = build_shape(spec, 0);
+  BodySpec body;
+  body.free_moves = {1, 0, 1};
+  body.free_turns = {0, 1, 1};
+  const RigidBody guided = make_body(shape, body);
+  const Eigen::Matrix2d block = shape.mass.inertia.bottomRightCorner<2, 2>().inverse();
+  EXPECT_LT((guided.inverse_inertia_body.bottomRightCorner<2, 2>() - block).norm(), 1e-15);
+  EXPECT_EQ(guided.inverse_inertia_body.row(0).norm() + guided.inverse_inertia_body.col(0).norm(), 0);
+  EXPECT_TRUE(guided.is_guided());
+  EXPECT_FALSE(guided.is_static());
+  body.free_moves = body.free_turns = Vec3::Zero();
+  EXPECT_TRUE(make_body(shape, body).is_static());
+}
+
 TEST(BuildShape, BoxHasItsDocumentedOrder) {
   ShapeSpec spec = spec_of(BoxSpec{{2, 4, 6}});
   spec.mass = 12;
