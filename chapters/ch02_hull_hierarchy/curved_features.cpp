@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace fc::hulls {
 namespace {
@@ -52,6 +53,9 @@ struct Seen {
   }
 
   void look(const Frame& frame, double depth) {
+    corners.clear();
+    heights.clear();
+    planes.clear();
     if (model.curved()) {
       const Outline outline = outline_of(model, outward(frame));
       for (int k = 0; k < outline.count; ++k) add(frame, pose * outline.corners[static_cast<std::size_t>(k)]);
@@ -154,18 +158,20 @@ struct Seen {
   }
 };
 
-// The part of a polygon, a segment or a point that lies left of the line from p to q.
+// The part of a polygon, a segment or a point that lies left of the line from p to q, or no more than the
+// border (m) right of it.
 std::vector<Vec2> cut(const std::vector<Vec2>& subject, const Vec2& p, const Vec2& q, double border) {
   std::vector<Vec2> left;
-  const auto side = [&](const Vec2& c) { return cross2(q - p, c - p) + border * (q - p).norm(); };
+  const auto side = [&](const Vec2& c) { return cross2(q - p, c - p) / (q - p).norm(); };
   const std::size_t lines = subject.size() > 2 ? subject.size() : subject.size() - 1;
   for (std::size_t k = 0; k < subject.size(); ++k) {
     const double here = side(subject[k]);
-    if (here >= 0) left.push_back(subject[k]);
+    if (here >= -border) left.push_back(subject[k]);
     if (k >= lines) break;
     const Vec2& to = subject[(k + 1) % subject.size()];
     const double there = side(to);
-    if ((here >= 0) != (there >= 0)) left.push_back(subject[k] + here / (here - there) * (to - subject[k]));
+    if ((here >= -border) == (there >= -border)) continue;
+    left.push_back(subject[k] + std::clamp(here / (here - there), 0.0, 1.0) * (to - subject[k]));
   }
   return left;
 }
@@ -197,41 +203,70 @@ std::vector<Vec2> shared_corners(const std::vector<Vec2>& a, const std::vector<V
   return shared;
 }
 
-// The unit normal (A's axes, from A to B) of the plane that parts the two best.
-Vec3 best_normal(const Seen& a, const Seen& b, const ca::PairPose& pose, const LeafPair& pair) {
-  const ca::Convex leaf_a = a.model.leaf(pair.a), leaf_b = b.model.leaf(pair.b);
-  const ca::GjkResult sharp = ca::distance(leaf_a, leaf_b, pose, {0, 1e-12, 128});
-  const Mat3 &turn_a = pose.rotation_a, &turn_b = pose.rotation_b;
-  Vec3 best = pair.gjk.normal;
-  double most = ca::support_gap(leaf_a, leaf_b, pose, best);
-  const auto consider = [&](const Vec3& normal, double allowed) {
-    const double gap = ca::support_gap(leaf_a, leaf_b, pose, normal);
-    if (gap < most - allowed) return;
-    most = std::max(most, gap);
-    best = normal;
-  };
-  if (sharp.status != ca::GjkResult::Status::overlapping) consider(sharp.normal, 0);
-  const double as_good = kAsGood * (leaf_a.reach + leaf_b.reach + pose.b_in_a.position.norm());
-  const Vec3 found = best;
-  for (const bool of_b : {false, true}) {
-    const Model& model = of_b ? b.model : a.model;
-    const int triangle = of_b ? b.triangle : a.triangle;
-    const Mat3& turn = of_b ? turn_b : turn_a;
-    const double sign = of_b ? -1 : 1;
-    const Vec3 outward = turn.transpose() * (sign * found);
-    if (model.curved()) {
-      const Outline outline = outline_of(model, outward);
-      if (outline.count > 1) consider(sign * (turn * outline.normal), as_good);
-      continue;
-    }
-    int face = triangle;
-    for (int t = 0; triangle < 0 && t < static_cast<int>(model.mesh.triangles.size()); ++t)
-      if (face < 0 || model.mesh.normals[t].dot(outward) > model.mesh.normals[face].dot(outward)) face = t;
-    if (face < 0) continue;
-    const Vec3& normal = model.mesh.normals[face];
-    consider((normal.dot(outward) < 0 ? -sign : sign) * (turn * normal), as_good);
+// The plane that parts two leaves best, of those that are looked at. One that is looked at later counts, too,
+// if it is as good up to rounding: those whose normals are exact come last.
+struct BestPlane {
+  const ca::Convex leaf_a, leaf_b;
+  const ca::PairPose& pose;
+  double as_good;  // m
+  Vec3 normal;     // unit, world, from A to B
+  double gap;      // m
+
+  BestPlane(const ca::Convex& a, const ca::Convex& b, const ca::PairPose& at, const Vec3& first)
+      : leaf_a(a),
+        leaf_b(b),
+        pose(at),
+        as_good(kAsGood * (a.reach + b.reach + at.b_in_a.position.norm())),
+        normal(first),
+        gap(ca::support_gap(a, b, at, first)) {}
+
+  void look(const Vec3& other) {
+    const double along = ca::support_gap(leaf_a, leaf_b, pose, other);
+    if (!(along >= gap - as_good)) return;
+    gap = std::max(gap, along);
+    normal = other;
   }
-  return (turn_a.transpose() * best).normalized();
+};
+
+// The nearest face of a polyhedron, or of a triangle of a mesh the one that looks there.
+std::optional<Vec3> face_towards(const Seen& side, const Vec3& outward) {
+  const FeatureMesh& mesh = side.model.mesh;
+  int face = side.triangle;
+  for (int t = 0; side.triangle < 0 && t < static_cast<int>(mesh.triangles.size()); ++t)
+    if (face < 0 || mesh.normals[t].dot(outward) > mesh.normals[face].dot(outward)) face = t;
+  if (face < 0) return std::nullopt;
+  return mesh.normals[face].dot(outward) < 0 ? Vec3(-mesh.normals[face]) : mesh.normals[face];
+}
+
+// The unit normal (world, from A to B) of the plane that parts the two best: GJK's, a line's of a curved
+// side, a cap's, or a face's.
+void look_at_surfaces(const Seen& a, const Seen& b, BestPlane& best) {
+  const Vec3 found = best.normal;
+  enum { side, cap, face };
+  for (const int kind : {side, cap, face})
+    for (const Seen* seen : {&a, &b}) {
+      const Mat3& turn = seen == &b ? best.pose.rotation_b : best.pose.rotation_a;
+      const Vec3 outward = turn.transpose() * (seen->sign * found);
+      std::optional<Vec3> normal;
+      if (seen->model.curved()) {
+        const Outline outline = outline_of(seen->model, outward);
+        if (kind != face && outline.count == (kind == side ? 2 : Outline::kRim)) normal = outline.normal;
+      } else if (kind == face) {
+        normal = face_towards(*seen, outward);
+      }
+      if (normal) best.look(seen->sign * (turn * *normal));
+    }
+}
+
+// The normal of the plane along two lines that cross, if that is what the sides show (A's axes, from A to B).
+std::optional<Vec3> crossing_normal(const Seen& a, const Seen& b, const Frame& frame) {
+  if (a.corners.size() != 2 || b.corners.size() != 2) return std::nullopt;
+  const auto line = [&](const Seen& side) {
+    return Vec3(frame.at(side.corners[1], side.heights[1]) - frame.at(side.corners[0], side.heights[0]));
+  };
+  const Vec3 cross = line(a).cross(line(b));
+  if (cross.norm() <= kParallel * line(a).norm() * line(b).norm()) return std::nullopt;
+  return Vec3(cross.normalized() * (cross.dot(frame.n) < 0 ? -1 : 1));
 }
 
 // Whether a mesh shows this normal (outward, A's axes) at a point of one of its triangles: no neighbour of it
@@ -265,9 +300,20 @@ std::vector<FeaturePair> curved_features(const Model& a, const Model& b, const c
     return model.filled ? -1 : model.boxes.leaf_item[leaf];
   };
   Seen side_a{a, triangle_of(a, pair.a), {}, 1}, side_b{b, triangle_of(b, pair.b), pose.b_in_a, -1};
-  const Frame frame(best_normal(side_a, side_b, pose, pair));
+  BestPlane best(a.leaf(pair.a), b.leaf(pair.b), pose, pair.gjk.normal);
+  const ca::GjkResult sharp = ca::distance(best.leaf_a, best.leaf_b, pose, {0, 1e-12, 128});
+  if (sharp.status != ca::GjkResult::Status::overlapping) best.look(sharp.normal);
+  look_at_surfaces(side_a, side_b, best);
+  const auto frame_of = [&] { return Frame((pose.rotation_a.transpose() * best.normal).normalized()); };
+  Frame frame = frame_of();
   side_a.look(frame, 2 * tolerance);
   side_b.look(frame, 2 * tolerance);
+  if (const std::optional<Vec3> across = crossing_normal(side_a, side_b, frame)) {
+    best.look(pose.rotation_a * *across);
+    frame = frame_of();
+    side_a.look(frame, 2 * tolerance);
+    side_b.look(frame, 2 * tolerance);
+  }
   const double reaches = a.reach + b.reach;
   std::vector<FeaturePair> features;
   for (const Vec2& place : shared_corners(side_a.corners, side_b.corners, kSame * reaches)) {

@@ -218,7 +218,7 @@ TEST(Compound, CollidesAsTheUnionOfItsParts) {
     EXPECT_EQ(one.status, two.status) << round;
     EXPECT_NEAR(one.toc, two.toc, 2e-6) << round;
     contacts += one.status == ca::Status::contact;
-    if (one.status == ca::Status::contact) EXPECT_FALSE(one.features.empty());
+    EXPECT_EQ(one.features.empty(), one.status != ca::Status::contact) << round;
     const ca::ReplayAnswer answer{one.status, one.toc, one.gap_lower, one.gap_upper};
     const auto wrong = replay({parts, other, ma, mb, 1}, answer, one.certificate, one.certificate_leaves);
     EXPECT_TRUE(wrong.empty()) << round << ": " << wrong.front().what;
