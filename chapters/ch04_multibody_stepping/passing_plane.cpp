@@ -41,7 +41,13 @@ struct Normals {
   }
 };
 
-void add_faces(const hulls::FeatureMesh& mesh, ca::FeatureKind kind, int id, Normals normals) {
+// The faces at a feature of a convex part, or of a mesh. A cylinder's caps stand for all that it has.
+void add_faces(const hulls::Model& model, ca::FeatureKind kind, int id, Normals normals) {
+  const hulls::FeatureMesh& mesh = model.mesh;
+  if (model.curved()) {
+    normals.add(model.axis);
+    normals.add(-model.axis);
+  }
   if (mesh.triangles.empty()) return;
   if (kind == ca::FeatureKind::face) normals.add(mesh.normals[id]);
   if (kind == ca::FeatureKind::edge)
@@ -51,7 +57,10 @@ void add_faces(const hulls::FeatureMesh& mesh, ca::FeatureKind kind, int id, Nor
     for_triangles_at(mesh, id, [&](int t) { normals.add(mesh.normals[t]); });
 }
 
+// The faces of a leaf, and of its neighbours in a mesh, that pass through a point of it (m, body axes).
 void add_faces(const hulls::Model& model, int leaf, const Vec3& point, Normals normals) {
+  if (!model.parts.empty()) return add_faces(model.part_of(leaf), 0, point, normals);
+  if (model.curved()) return add_faces(model, ca::FeatureKind::face, 0, normals);
   const hulls::FeatureMesh& mesh = model.mesh;
   const auto look = [&](int t) {
     const double off = mesh.normals[t].dot(point - mesh.vertices[mesh.triangles[t][0]]);
@@ -64,9 +73,32 @@ void add_faces(const hulls::Model& model, int leaf, const Vec3& point, Normals n
     for (const int vertex : mesh.triangles[triangle]) for_triangles_at(mesh, vertex, look);
 }
 
-// The convex hull of a model: the quicker view of it where the model is convex itself.
-ca::Convex hull_of(const hulls::Model& model) {
-  return model.filled ? model.leaf(0) : model.whole();
+// The same for a feature of any model: of a compound it is its part's, and numbered from there.
+void add_faces_of(const hulls::Model& model, ca::FeatureKind kind, int id, Normals normals) {
+  if (model.parts.empty()) return add_faces(model, kind, id, normals);
+  const auto after = std::upper_bound(model.first_name.begin(), model.first_name.end(), id);
+  const auto part = static_cast<std::size_t>(after - model.first_name.begin() - 1);
+  add_faces(model.parts[part], kind, id - model.first_name[part], normals);
+}
+
+// Calls `look` with convex bodies that hold the model: its parts, itself where it is convex, or a mesh's hull.
+template <class Look>
+void for_hulls(const hulls::Model& model, Look&& look) {
+  for (const hulls::Model& part : model.parts) look(part.leaf(0));
+  if (model.parts.empty()) look(model.filled ? model.leaf(0) : model.whole());
+}
+template <class Look>
+void for_hulls(const hulls::Model& a, const hulls::Model& b, Look&& look) {
+  for_hulls(a,
+            [&](const ca::Convex& of_a) { for_hulls(b, [&](const ca::Convex& of_b) { look(of_a, of_b); }); });
+}
+
+double gap_at(const NearPair& pair, const ca::PairPose& pose, const Vec3& normal) {
+  double least = std::numeric_limits<double>::infinity();
+  for_hulls(pair.a, pair.b, [&](const ca::Convex& a, const ca::Convex& b) {
+    least = std::min(least, ca::support_gap(a, b, pose, normal));
+  });
+  return least;
 }
 
 }  // namespace
@@ -80,8 +112,8 @@ double closing_speed(const NearPair& pair, const Vec3& normal, const Witnesses& 
 
 std::vector<Vec3> faces_beside(const NearPair& pair, const ca::FeaturePair& features) {
   std::vector<Vec3> normals;
-  add_faces(pair.a.mesh, features.kind_a, features.id_a, {pair.pose.rotation_a, 1, normals});
-  add_faces(pair.b.mesh, features.kind_b, features.id_b, {pair.pose.rotation_b, -1, normals});
+  add_faces_of(pair.a, features.kind_a, features.id_a, {pair.pose.rotation_a, 1, normals});
+  add_faces_of(pair.b, features.kind_b, features.id_b, {pair.pose.rotation_b, -1, normals});
   return normals;
 }
 
@@ -95,7 +127,7 @@ std::vector<Vec3> faces_beside(const NearPair& pair, const hulls::LeafPair& leav
 }
 
 double gap_along(const NearPair& pair, const Vec3& normal) {
-  return ca::support_gap(hull_of(pair.a), hull_of(pair.b), pair.pose, normal);
+  return gap_at(pair, pair.pose, normal);
 }
 
 std::optional<Vec3> slowest_plane(const NearPair& pair, const std::vector<Vec3>& normals, const Witnesses& at,
@@ -111,18 +143,22 @@ std::optional<Vec3> slowest_plane(const NearPair& pair, const std::vector<Vec3>&
 }
 
 double clear_along(const NearPair& pair, const Vec3& normal, double target, double interval) {
-  const ca::Convex hull_a = hull_of(pair.a), hull_b = hull_of(pair.b);
   const double end = pair.time + interval;
   double t = pair.time;
   for (int k = 0; k < kPlaneSteps; ++k) {
     const ca::PairPose pose(pair.motion_a, pair.motion_b, t);
-    const double room = ca::support_gap(hull_a, hull_b, pose, normal) - target;
+    const double room = gap_at(pair, pose, normal) - target;
     if (!(room > 0)) break;
-    const hulls::SafeStep step =
-        hulls::points_step(pair.motion_a, hull_a, pair.motion_b, hull_b, pose, normal, t, end, room);
-    if (t + (1 - kShorter) * step.time >= end) return interval;
-    if (!(step.time > std::numeric_limits<double>::epsilon() * end)) break;
-    t += (1 - kShorter) * step.time;
+    double step = std::numeric_limits<double>::infinity();
+    for_hulls(pair.a, pair.b, [&](const ca::Convex& a, const ca::Convex& b) {
+      const hulls::SafeStep safe =
+          hulls::points_step(pair.motion_a, a, pair.motion_b, b, pose, normal, t, end, room);
+      step = std::min(step, safe.time);
+    });
+    step *= 1 - kShorter;
+    if (t + step >= end) return interval;
+    if (!(step > std::numeric_limits<double>::epsilon() * end)) break;
+    t += step;
   }
   return t - pair.time;
 }

@@ -45,7 +45,7 @@ std::vector<Vec3> faces_beside(const NearPair& pair, const ca::FeaturePair& feat
 std::vector<Vec3> faces_beside(const NearPair& pair, const hulls::LeafPair& leaves, const Witnesses& at);
 
 // That of the normals along which the bodies close in slowest, and no faster than `fastest` (m/s), of those that part them:
-// the gap of the two hulls along it is no less than `least` (m). None if there is no such plane.
+// the gap along it is no less than `least` (m). None if there is no such plane.
 std::optional<Vec3> slowest_plane(const NearPair& pair, const std::vector<Vec3>& normals, const Witnesses& at,
                                   double fastest, double least);
 
@@ -53,7 +53,7 @@ std::optional<Vec3> slowest_plane(const NearPair& pair, const std::vector<Vec3>&
 // to B) surely stays at `target` (m) or above: conservative advancement (chapter 1) along one normal.
 double clear_along(const NearPair& pair, const Vec3& normal, double target, double interval);
 
-// The certified gap of the two hulls along a normal (m).
+// The certified gap along a normal (m); of a mesh its convex hull counts.
 double gap_along(const NearPair& pair, const Vec3& normal);
 
 }  // namespace fc::world

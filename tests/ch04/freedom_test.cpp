@@ -264,12 +264,12 @@ shapes:
   iron: {parts: [{box: {size: [0.8, 0.2, 0.2]}, position: [0.4, 0.1, 0.1]},
                  {box: {size: [0.2, 0.6, 0.2]}, position: [0.1, 0.5, 0.1]}], density: 1000}
 bodies:
-  - {shape: slab, static: true, position: [0, 0, -2]}
-  - {shape: slab, static: true, position: [0, 0, 2]}
-  - {shape: slab, static: true, position: [-2, 0, 0], orientation: [1, 0, 1, 0]}
-  - {shape: slab, static: true, position: [2, 0, 0], orientation: [1, 0, 1, 0]}
-  - {shape: slab, static: true, position: [0, -2, 0], orientation: [1, 1, 0, 0]}
-  - {shape: slab, static: true, position: [0, 2, 0], orientation: [1, 1, 0, 0]}
+  - {shape: slab, static: true, position: [0, 0, -2.5]}
+  - {shape: slab, static: true, position: [0, 0, 2.5]}
+  - {shape: slab, static: true, position: [-2.5, 0, 0], orientation: [1, 0, 1, 0]}
+  - {shape: slab, static: true, position: [2.5, 0, 0], orientation: [1, 0, 1, 0]}
+  - {shape: slab, static: true, position: [0, -2.5, 0], orientation: [1, 1, 0, 0]}
+  - {shape: slab, static: true, position: [0, 2.5, 0], orientation: [1, 1, 0, 0]}
 )";
   int instants = 0;
   for (unsigned seed = 1; seed <= 6; ++seed) {
@@ -280,7 +280,7 @@ bodies:
     };
     std::string bodies;
     for (int i = 0; i < 8; ++i) {
-      const auto at = [&](int bit) { return std::string(i & bit ? "0.8" : "-0.8"); };
+      const auto at = [&](int bit) { return std::string(i & bit ? "0.9" : "-0.9"); };
       bodies += std::string("  - {shape: ") +
                 (i % 3 == 0   ? "rod"
                  : i % 3 == 1 ? "hat"
