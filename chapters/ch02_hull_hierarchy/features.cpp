@@ -318,7 +318,7 @@ FeaturePair witness(const Model& a, const Model& b, const LeafPair& pair, const 
   name_feature(a, pair.a, pair.gjk.cache.a, pair.gjk.cache.count, w.normal, w.kind_a, w.id_a);
   name_feature(b, pair.b, pair.gjk.cache.b, pair.gjk.cache.count,
                -(pose.b_in_a.rotation.transpose() * w.normal), w.kind_b, w.id_b);
-  const bool triangles = a.boxes.leaf_item[pair.a] >= 0 && b.boxes.leaf_item[pair.b] >= 0;
+  const bool triangles = !a.filled && !b.filled;
   if (triangles && pair.gjk.status == ca::GjkResult::Status::overlapping)
     meet_in_one_point(a, b, pair, pose, w);
   return w;
