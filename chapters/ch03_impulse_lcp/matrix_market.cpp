@@ -77,8 +77,8 @@ Eigen::Index count(TextCursor& words, const char* what, Eigen::Index least, Eige
   const std::string_view word = words.word();
   const long long value = words.integer(word, what);
   if (value < least || value > most) {
-    words.fail(in_quotes(word) + " stands for " + what + "; write a whole number from " + std::to_string(least) +
-               " to " + std::to_string(most));
+    words.fail(in_quotes(word) + " stands for " + what + "; write a whole number from " +
+               std::to_string(least) + " to " + std::to_string(most));
   }
   return value;
 }

@@ -64,7 +64,7 @@ Long closing_speed(const Query& q, Long t, const Vec<Long>& n) {
 // What the replay says of an answer with these rows, or "".
 std::string replay(const Query& q, const ca::AdvanceResult& r, const std::vector<ca::CertificateRow>& rows) {
   const auto shape = [](const Solid& solid) {
-    ca::ReplayShape result{{}, {}, solid.radius, ca::reach_of(solid.core.vertices)};
+    ca::ReplayShape result{{}, {}, {}, {}, solid.radius, ca::reach_of(solid.core.vertices)};
     for (const Vec3& x : solid.core.vertices) result.points.push_back(x.cast<Long>());
     return result;
   };

@@ -28,7 +28,7 @@ fc::ca::Motion motion_of(const truth::Flight& flight) {
 }
 
 fc::ca::ReplayShape replay_shape(const truth::Shape& shape) {
-  return {shape.points, shape.disks, shape.radius, shape.reach()};
+  return {shape.points, shape.disks, {}, {}, shape.radius, shape.reach()};
 }
 
 std::string check_start(const Query& q, const AdvanceResult& r) {
