@@ -29,7 +29,8 @@ class Path {
   std::vector<PathRow> rows_;  // positions: of the centre of mass
 };
 
-// Sets every body with a path on its course for the next dt seconds (of which no row is within).
+// Sets every body with a path on its course for the next dt seconds (of which no row is within), but for those
+// that are held: they stand, and go on from there, so much later.
 void follow_paths(World& world, double dt);
 
 // For how long, of the next dt seconds, all bodies with a path keep their courses; dt if no row is within. A

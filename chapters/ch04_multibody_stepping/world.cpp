@@ -197,7 +197,7 @@ void World::carry(int body, double time, double name) {
   Body& b = bodies[body];
   const double elapsed = time - b.time;
   const Vec3 group_velocity = b.group >= 0 ? course(body, time).velocity : Vec3(Vec3::Zero());
-  b.clock += time - name;
+  b.clock += (b.held ? b.time : time) - name;  // who is held is late from then on
   b.state = state_at(body, time);
   b.group_velocity = group_velocity;
   if (b.free && b.steered) {  // from here on it turns freely again

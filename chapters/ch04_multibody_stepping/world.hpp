@@ -37,8 +37,8 @@ struct Body {
   bool supported = false;              // for this frame: what it lies on cancels gravity (chapter 5)
   bool lies = false;                   // held, and on nothing that moves
   bool foreseen = false;  // its way through the frame is proved, whatever comes near it (chapter 5)
-  // Of a kinematic body that follows one, and the time at which the frame (or the part of it that is being
-  // stepped) began, s.
+  // Of a kinematic body that follows one, and the time on it (s) at which the frame, or the part of it that is
+  // being stepped, began: the world's, less what the body was held.
   std::shared_ptr<const Path> path;
   double clock = 0;
   // Chapter 5: it is moved by this, too, until it takes a new course; no velocity knows of it.

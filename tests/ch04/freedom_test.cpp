@@ -176,6 +176,26 @@ TEST(Paths, AreMetAtEveryRowAndStraightBetween) {
   EXPECT_LT((body(world, 0).position - Vec3(1, 3, 1) - up).norm(), 1e-14);
 }
 
+// A lift under a block: impacts pile up, and both are held again and again. The lift is late then, and never
+// jumps into what lies on it.
+TEST(Paths, WhoIsHeldOnThemGoesOnLate) {
+  const PathFile path("0,0,0,0,1,0,0,0\n1,0,0,0.5,1,0,0,0\n");
+  auto world = make_world(head + path.body("floor") + "  - {shape: bead, position: [0, 0, 0.601]}\n",
+                          {"gravity=[0, 0, -10]"});
+  double lost = 0, last = 0;
+  for (int frame = 0; frame < 150; ++frame) {
+    const auto report = fc::world::step(world, 0.01);
+    lost += report.lost_time;
+    const double lift = body(world, 0).position.z();
+    ASSERT_GT(body(world, 1).position.z() - 0.1 - lift - 0.5, 0) << frame;
+    ASSERT_GT(report.min_gap, 0) << frame;
+    ASSERT_LE(lift - last, 0.5 * 0.01 + 1e-12) << frame;
+    last = lift;
+  }
+  EXPECT_GT(lost, 0.1);
+  EXPECT_NEAR(last, std::min(0.5, 0.5 * (1.5 - lost)), 1e-9);
+}
+
 TEST(Paths, ABadFileIsRefusedAtItsCell) {
   const auto refusal = [](const std::string& rows, const std::string& more = "") {
     const PathFile path(rows);
