@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "common/errors.hpp"
+#include "common/scene_keys.hpp"
 #include "common/text.hpp"
 
 namespace fc {
@@ -20,25 +21,51 @@ CLI::Option* add_repeated(CLI::App& app, const std::string& name, std::vector<Va
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
+// The one value of an option that may be given once, or "".
+std::string once(const std::string& name, const std::vector<std::string>& values,
+                 const std::string& instead) {
+  if (values.size() > 1)
+    throw InputError(name + " is given twice, " + in_quotes(values[0]) + " and " + in_quotes(values[1]) +
+                     "; " + instead);
+  return values.empty() ? "" : values[0];
+}
+
+void refuse_idle(const CLI::App& app, int chapter) {
+  for (const ChapterOption& option : chapter_options()) {
+    if (app.get_option(option.name)->count() == 0 || (option.first <= chapter && chapter <= option.last))
+      continue;
+    throw InputError(option.name + " has no effect in " + chapter_title(chapter) + ": it " + option.what +
+                     ", in " + chapters_text(option.first, option.last) + "; leave it out");
+  }
+}
+
 }  // namespace
 
-Options parse_options(int argc, char** argv, const std::string& purpose, const std::string& example) {
+const std::vector<ChapterOption>& chapter_options() {
+  static const std::vector<ChapterOption> options = {
+      {"--certificate", 1, 2, "writes certificate.csv, every advance of a query"},
+      {"--poses", 4, all_later_chapters, "writes poses.csv, every body at every frame"},
+      {"--mesh-path", 2, all_later_chapters, "names folders in which meshes are looked for"},
+  };
+  return options;
+}
+
+Options parse_options(int argc, char** argv, int chapter, const std::string& purpose,
+                      const std::string& example) {
   Options options;
-  std::string out;
-  std::vector<std::string> mesh_path;
+  std::vector<std::string> out, sweep, mesh_path;
   CLI::App app(purpose);
   app.footer("Example:\n  " + example);
   app.add_option("SCENE", options.scene, "The scene to run, a YAML file")->required()->type_name("FILE");
-  CLI::Option* out_option =
-      app.add_option("--out", out, "Folder for the results (default: out/<scene name>/)");
-  out_option->type_name("DIR");
+  add_repeated(app, "--out", out, "Folder for the results (default: out/<scene name>/)")->type_name("DIR");
   add_repeated(app, "--set", options.sets, "Set one value of the scene, e.g. ccd.tolerance=1e-4 (repeatable)")
       ->type_name("KEY.PATH=VALUE");
-  app.add_option("--sweep", options.sweep, "Run once per value; one row per value in sweep.csv")
+  add_repeated(app, "--sweep", sweep, "Run once per value; one row per value in sweep.csv")
       ->type_name("KEY.PATH=V1,V2,...");
   app.add_flag("--explain", options.explain, "Print which effects are on, why, and what each adds; then exit")
       ->disable_flag_override();
-  add_repeated(app, "--mesh-path", mesh_path, "Look for meshes here too (repeatable)")->type_name("DIR");
+  add_repeated(app, "--mesh-path", mesh_path, "Look for meshes here too (repeatable; from chapter 2 on)")
+      ->type_name("DIR");
   app.add_flag("--certificate", options.certificate, "Write certificate.csv: every advance (chapters 1, 2)")
       ->disable_flag_override();
   app.add_flag("--poses", options.poses, "Write poses.csv: every body at every frame (chapter 4 on)")
@@ -52,9 +79,11 @@ Options parse_options(int argc, char** argv, const std::string& purpose, const s
   } catch (const CLI::ParseError& error) {
     throw InputError(one_line(error.what()) + "; see --help");
   }
-  if (out_option->count() > 0) {
-    if (out.empty()) throw InputError("--out: the folder's name is empty; name a folder");
-    options.out = out;
+  refuse_idle(app, chapter);
+  options.sweep = once("--sweep", sweep, "a run sweeps one key: sweep one, and --set the other");
+  if (!out.empty()) {
+    options.out = once("--out", out, "the results go into one folder");
+    if (options.out->empty()) throw InputError("--out: the folder's name is empty; name a folder");
   }
   for (const std::string& folder : mesh_path) {
     std::error_code ignored;

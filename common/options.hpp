@@ -18,7 +18,17 @@ struct Options {
   std::string help;  // the text for --help; empty = not asked for
 };
 
-// Parses the command line. `purpose` and `example` appear in the help. Throws InputError for bad options.
-Options parse_options(int argc, char** argv, const std::string& purpose, const std::string& example);
+// An option that has an effect in some chapters only: in all others it is refused.
+struct ChapterOption {
+  std::string name;  // "--poses"
+  int first, last;   // the chapters
+  std::string what;  // what it does there: "writes poses.csv: every body at every frame"
+};
+const std::vector<ChapterOption>& chapter_options();
+
+// Parses the command line of a chapter. `purpose` and `example` appear in the help. Throws InputError for bad
+// options, and for those that have no effect in the chapter.
+Options parse_options(int argc, char** argv, int chapter, const std::string& purpose,
+                      const std::string& example);
 
 }  // namespace fc

@@ -1,12 +1,13 @@
 #include "common/program.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
-
 #include <algorithm>
+#include <new>
 
 #include "common/options.hpp"
 #include "common/report.hpp"
+#include "common/results_folder.hpp"
+#include "common/scene_failure.hpp"
 #include "common/scene_keys.hpp"
 #include "common/sweep.hpp"
 #include "common/text.hpp"
@@ -21,15 +22,16 @@ void print_error(const std::string& message) {
   std::fflush(stderr);
 }
 
-// Creates the folder, with its parents. A folder that cannot be written is bad input.
-void create_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  std::error_code ignored;
-  const bool is_folder = std::filesystem::is_directory(folder, ignored);
-  if (is_folder && access(folder.c_str(), W_OK) == 0) return;
-  const std::string why = error ? error.message() : is_folder ? "cannot be written" : "not a folder";
-  throw InputError("--out " + folder.string() + ": " + why + "; choose another folder");
+// What a failure says, behind the place in the scene that it is about.
+std::string failure_text(const std::exception& error, const Scene& scene) {
+  if (dynamic_cast<const std::bad_alloc*>(&error))
+    return scene.file.string() + ": the scene needs more memory than there is; make it smaller";
+  const auto* failure = dynamic_cast<const SceneFailure*>(&error);
+  if (failure == nullptr) return error.what();
+  const std::string& key = failure->key();
+  const std::string above = key.substr(0, key.find('.'));  // "solver" of "solver.limit"
+  const SourceMark file{scene.file.string()};
+  return scene.mark(key).value_or(scene.mark(above).value_or(file)).text() + ": " + error.what();
 }
 
 // Runs one scene into a folder that exists. Failures are printed, and the summary is written in any case.
@@ -41,52 +43,60 @@ int run_scene(const Chapter& chapter, const Scene& scene, const RunContext& cont
   } catch (const InputError&) {
     throw;                                 // the run found the input bad: there is nothing to sum up
   } catch (const std::exception& error) {  // a NumericalFailure, or anything that no one foresaw
-    failure = one_line(error.what());
+    failure = one_line(failure_text(error, scene));
     print_error(failure);
   }
   write_summary(context.out_dir / "summary.json", chapter, scene, summary, exit_code, failure);
   return exit_code;
 }
 
-void print_summary(const Scene& scene, const RunContext& context, const Summary& summary) {
-  if (context.quiet) return;
-  fmt::print("{}: results in {}\n{}", one_line(scene.name), context.out_dir.string(), summary_text(summary));
-}
-
-int run_once(const Chapter& chapter, const Scene& scene, const RunContext& context) {
-  create_folder(context.out_dir);
+int run_once(const Chapter& chapter, const Scene& scene, RunContext context) {
+  const std::filesystem::path folder = context.out_dir;
+  ResultsFolder results(folder);
+  context.out_dir = results.aside();
   Summary summary;
   const int exit_code = run_scene(chapter, scene, context, summary);
-  print_summary(scene, context, summary);
+  results.put_in_place();
+  if (!context.quiet)
+    fmt::print("{}: results in {}\n{}", one_line(scene.name), folder.string(), summary_text(summary));
   return exit_code;
 }
 
-// Runs a scene once per value, each in a folder of its own; ends with the worst exit code. All values are
-// checked before the first one runs.
-int run_sweep(const Chapter& chapter, const SceneSource& source, const Sweep& sweep,
-              const RunContext& context) {
+// The scenes of a sweep, one for each value: all are checked before the first one runs.
+std::vector<Scene> swept_scenes(const Chapter& chapter, const SceneSource& source, const Sweep& sweep) {
   std::vector<Scene> scenes;
   for (const std::string& value : sweep.values) {
     SceneSource swept = source;
     swept.swept = sweep.key + "=" + value;
     scenes.push_back(read_scene(swept));
   }
+  if (chapter.check)
+    for (const Scene& scene : scenes) chapter.check(scene);
+  return scenes;
+}
+
+// Runs a scene once per value, each in a folder of its own; ends with the worst exit code.
+int run_sweep(const Chapter& chapter, const SceneSource& source, const Sweep& sweep, RunContext context) {
+  const std::vector<Scene> scenes = swept_scenes(chapter, source, sweep);
   const std::vector<std::string> folders = sweep_folders(sweep);
+  const std::filesystem::path folder = context.out_dir;
+  ResultsFolder results(folder);
   std::vector<SweepRun> runs;
   int exit_code = done;
-  create_folder(context.out_dir);
   for (std::size_t i = 0; i < scenes.size(); ++i) {
-    RunContext run_context = context;
-    run_context.out_dir = context.out_dir / folders[i];
-    create_folder(run_context.out_dir);
+    context.out_dir = results.aside() / folders[i];
+    std::filesystem::create_directory(context.out_dir);
     SweepRun run{sweep.values[i], {}, 0};
-    run.exit_code = run_scene(chapter, scenes[i], run_context, run.summary);
+    run.exit_code = run_scene(chapter, scenes[i], context, run.summary);
     exit_code = std::max(exit_code, run.exit_code);
     if (!context.quiet) fmt::print("{}={}\n{}", sweep.key, run.value, summary_text(run.summary));
     runs.push_back(std::move(run));
-    write_sweep(context.out_dir / "sweep.csv", sweep, runs);  // after each run: a later failure loses nothing
+    write_sweep(results.aside() / "sweep.csv", sweep, runs);  // after each run: a later failure loses nothing
+    results.keep_if_killed();
   }
-  if (!context.quiet) fmt::print("one row per value in {}\n", (context.out_dir / "sweep.csv").string());
+  write_sweep_summary(results.aside() / "summary.json", chapter, scenes[0], sweep, exit_code);
+  results.put_in_place();
+  if (!context.quiet) fmt::print("one row per value in {}\n", (folder / "sweep.csv").string());
   return exit_code;
 }
 
@@ -116,7 +126,7 @@ int run_with(const Options& options, const Chapter& chapter) {
 
 int run_program(int argc, char** argv, const Chapter& chapter) {
   try {
-    const Options options = parse_options(argc, argv, chapter.purpose, chapter.example);
+    const Options options = parse_options(argc, argv, chapter.number, chapter.purpose, chapter.example);
     if (!options.help.empty()) {
       fmt::print("{}\n{}", options.help, scene_keys_help(chapter.number));
       return done;

@@ -70,7 +70,7 @@ class Progress {
 // What a chapter's run gets beside the scene.
 struct RunContext {
   std::string chapter;            // the program's name
-  std::filesystem::path out_dir;  // exists
+  std::filesystem::path out_dir;  // to write into; exists. The files are put in place when the run has ended
   bool certificate = false;       // --certificate
   bool poses = false;             // --poses
   bool quiet = false;             // --quiet
@@ -93,6 +93,9 @@ struct Chapter {
   std::string example;  // a command line that works from the project's root
   std::function<std::vector<Effect>(const Scene&)> explain;
   std::function<int(const Scene&, const RunContext&, Summary&)> run;
+  // Throws InputError for what only the built scene shows (bodies that overlap, a matrix that cannot be
+  // read); asked before a sweep begins. May be empty.
+  std::function<void(const Scene&)> check = {};
 };
 
 // The whole of main(): parses options, reads the scene, runs, sweeps or explains, prints, and maps failures

@@ -10,13 +10,16 @@
 #include <nlohmann/json.hpp>
 
 #include "common/errors.hpp"
+#include "common/results_folder.hpp"
 #include "common/text.hpp"
 
 namespace fc {
 namespace {
 
 // A cell as JSON. JSON has no NaN and no infinity (nlohmann-json would write null): those become text.
-nlohmann::ordered_json json_value(const Cell& cell) {
+using Json = nlohmann::ordered_json;
+
+Json json_value(const Cell& cell) {
   if (const auto* number = std::get_if<double>(&cell)) {
     if (std::isfinite(*number)) return *number;
     return cell_text(cell);
@@ -31,6 +34,30 @@ std::string time_text(const Cell& cell) {
   if (ns < 1e3) return fmt::format("{:.0f} ns", ns);
   if (ns < 1e6) return fmt::format("{:.3g} us", ns * 1e-3);
   return ns < 1e9 ? fmt::format("{:.3g} ms", ns * 1e-6) : fmt::format("{:.3g} s", ns * 1e-9);
+}
+
+Json header(const Chapter& chapter, const Scene& scene, int exit_code) {
+  Json json = {{"program", chapter.name},
+               {"scene", scene.name},
+               {"scene_file", scene.file.string()},
+               {"exit_code", exit_code}};
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i)  // tables have numbers only
+    if (!scene.bodies[i].name.empty()) json["names of bodies"][std::to_string(i)] = scene.bodies[i].name;
+  return json;
+}
+
+// With the list of all files that stand beside it, itself included.
+void write(const std::filesystem::path& file, Json json) {
+  std::ofstream stream(file, std::ios::binary);
+  if (!stream) {
+    throw InputError({file.string()}, std::string("cannot be written: ") + std::strerror(errno) +
+                                          "; choose another folder by --out");
+  }
+  json["files"] = files_below(file.parent_path());
+  // Text that is not UTF-8 (a file's name may be anything) is replaced, not thrown upon.
+  stream << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+  stream.close();
+  if (!stream) throw std::runtime_error(file.filename().string() + ": cannot be written to the end");
 }
 
 }  // namespace
@@ -50,29 +77,28 @@ std::string summary_text(const Summary& summary) {
 
 void write_summary(const std::filesystem::path& file, const Chapter& chapter, const Scene& scene,
                    const Summary& summary, int exit_code, const std::string& failure) {
-  nlohmann::ordered_json json;
-  json["program"] = chapter.name;
-  json["scene"] = scene.name;
-  json["scene_file"] = scene.file.string();
-  json["exit_code"] = exit_code;
+  Json json = header(chapter, scene, exit_code);
   if (!failure.empty()) json["failure"] = failure;
-  json["entries"] = nlohmann::ordered_json::object();
+  json["entries"] = Json::object();
   for (const Summary::Entry& entry : summary.entries()) {
     json["entries"][entry.name] = {{"value", json_value(entry.value)}, {"unit", entry.unit}};
   }
-  json["counters"] = nlohmann::ordered_json::object();
+  json["counters"] = Json::object();
   for (const Summary::Counter& counter : summary.counters()) {
     json["counters"][counter.stage] = {{"runs", counter.runs}, {"ns", counter.ns}};
   }
-  std::ofstream stream(file, std::ios::binary);
-  if (!stream) {
-    throw InputError({file.string()}, std::string("cannot be written: ") + std::strerror(errno) +
-                                          "; choose another folder by --out");
-  }
-  // Text that is not UTF-8 (a file's name may be anything) is replaced, not thrown upon.
-  stream << json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << '\n';
-  stream.close();
-  if (!stream) throw std::runtime_error(file.string() + ": cannot be written to the end");
+  write(file, std::move(json));
+}
+
+void write_sweep_summary(const std::filesystem::path& file, const Chapter& chapter, const Scene& scene,
+                         const Sweep& sweep, int exit_code) {
+  Json json = header(chapter, scene, exit_code);
+  json["sweep"] = sweep.key;
+  json["runs"] = Json::array();
+  const std::vector<std::string> folders = sweep_folders(sweep);
+  for (std::size_t i = 0; i < folders.size(); ++i)
+    json["runs"].push_back({{"value", sweep.values[i]}, {"folder", folders[i]}});
+  write(file, std::move(json));
 }
 
 std::string effects_text(const std::vector<Effect>& effects) {

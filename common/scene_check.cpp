@@ -13,7 +13,7 @@ namespace {
 
 class KeyChecker {
  public:
-  explicit KeyChecker(int chapter) : chapter_(chapter) {}
+  KeyChecker(const YamlNode& scene, int chapter) : scene_(scene), chapter_(chapter) {}
 
   std::map<std::string, SourceMark> marks;
 
@@ -29,8 +29,13 @@ class KeyChecker {
         refuse(entry.key_place, fmt::format("{} comes with {}; remove it, or run the scene with that chapter",
                                             name, chapter_title(key->first)));
       }
-      if (chapter_ > key->last) {
-        refuse(entry.key_place, fmt::format("{} is known to {} only; remove it", name, key->chapters_text()));
+      if (!key->known_in(chapter_)) {
+        refuse(entry.key_place, fmt::format("{} has no effect in {}, only in {}; remove it", name,
+                                            chapter_title(chapter_), key->chapters_text()));
+      }
+      if (!key->idle_beside.empty() && scene_.find(key->idle_beside)) {
+        refuse(entry.key_place,
+               fmt::format("{} has no effect beside {}; remove it", name, in_quotes(key->idle_beside)));
       }
       const std::string key_path = path.empty() ? entry.key : path + "." + entry.key;
       marks[key_path] = entry.key_place.mark();
@@ -100,18 +105,33 @@ class KeyChecker {
 
   [[noreturn]] void refuse_unknown(const YamlNode::Entry& entry, const std::string& pattern,
                                    const std::string& path) const {
-    const std::string best = nearest(entry.key, scene_keys_below(pattern, chapter_));
-    refuse(entry.key_place, fmt::format("unknown key {}{}; the nearest known key is {}", in_quotes(entry.key),
-                                        path.empty() ? "" : " in " + in_quotes(path), in_quotes(best)));
+    refuse(entry.key_place,
+           fmt::format("unknown key {}{}; the nearest known key is {}", in_quotes(entry.key),
+                       path.empty() ? "" : " in " + in_quotes(path), nearest_key(entry.key, pattern)));
   }
 
+  // A key that stands elsewhere, if the name is its own to the letter; else the nearest of those that may stand
+  // here, those of other chapters included.
+  std::string nearest_key(const std::string& name, const std::string& pattern) const {
+    for (const SceneKey& key : scene_keys())
+      if (key.last_name() == name && key.known_in(chapter_))
+        return in_quotes(key.path) + (key.path == name ? " at the top" : "");
+    std::vector<std::string> names = scene_keys_below(pattern);
+    for (const LaterName& later : later_names()) names.push_back(later.name);
+    const std::string best = nearest(name, names);
+    if (const LaterName* later = find_later_name(best)) return in_quotes(best) + ", which " + later->text();
+    const SceneKey& key = *find_scene_key(pattern.empty() ? best : pattern + "." + best);
+    return in_quotes(best) + (key.known_in(chapter_) ? "" : ", which is for " + key.chapters_text());
+  }
+
+  const YamlNode& scene_;
   int chapter_;
 };
 
 }  // namespace
 
 std::map<std::string, SourceMark> check_scene_keys(const YamlNode& scene, int chapter) {
-  KeyChecker checker(chapter);
+  KeyChecker checker(scene, chapter);
   checker.check_section(scene, "", "");
   return std::move(checker.marks);
 }

@@ -21,7 +21,7 @@ std::vector<SceneKey> build_table() {
   const std::string one_kind = "required: exactly one kind";
   const std::string bodies_needed = "required, except with lcp or linear";
   return {
-  // path, first, last, default, type, unit, range, meaning, example
+  // path, first, last, default, type, unit, range, meaning, example, choices, except, idle beside
   {"name", 1, on, "the file's name", text, "", {}, "Names the scene in summaries and in the output folder.", "two-bodies", {}},
   {"step", 4, on, required, section, "", {}, "Turns the scene into a simulation of round(duration / dt) frames.", "{dt: 0.01, duration: 4}", {}},
   {"step.dt", 4, on, required, number, "s", {1e-9, 1e3}, "Length of a frame.", "0.01", {}},
@@ -35,20 +35,20 @@ std::vector<SceneKey> build_table() {
   {"sleep.after", 4, on, "0.25", number, "s", {0, 1e9, true}, "For how long a body must have been held, or supported, without a break.", "0.25", {}},
   {"sleep.speed", 4, on, "0.01", number, "m/s", {0, 1e9}, "No point of a body that falls asleep is faster.", "0.01", {}},
   {"envelope", 5, on, none, number, "m", {0, 1e3}, "Width of the shell in which contacts last; 0: a thousandth of the smallest reach of a shape that moves.", "5.0e-4", {}},
-  {"restitution", 3, on, "0", number, "1", fraction, "Part of the approach speed that an impact returns; a pair takes the larger of its shapes' values.", "0.5", {}},
-  {"pairs", 3, on, none, list, "", {}, "What two shapes do to each other, instead of the rule that takes the larger value.", "[{a: ice, b: steel, restitution: 0.1}]", {}},
+  {"restitution", 3, on, "0", number, "1", fraction, "Part of the approach speed that an impact returns; a pair takes the larger of its shapes' values.", "0.5", {}, 0, "lcp"},
+  {"pairs", 3, on, none, list, "", {}, "What two shapes do to each other, instead of the rule that takes the larger value.", "[{a: ice, b: steel, restitution: 0.1}]", {}, 0, "lcp"},
   {"pairs[].a", 3, on, required, text, "", {}, "Name of a shape.", "ice", {}},
   {"pairs[].b", 3, on, required, text, "", {}, "Name of the other shape, or the same.", "steel", {}},
   {"pairs[].restitution", 3, on, required, number, "1", fraction, "Restitution between bodies of the two shapes.", "0.1", {}},
-  {"ccd", 1, on, none, section, "", {}, "Continuous collision detection.", "{tolerance: 1.0e-6}", {}},
-  {"ccd.tolerance", 1, on, "1e-6", number, "m", {0, 1e3, true}, "Gap at which two bodies are in contact.", "1.0e-6", {}},
-  {"ccd.bound", 1, 1, "second_order", choice, "", {}, "Motion bound, from the plainest to the sharpest; chapter 2 has its own.", "second_order", {"naive", "directional", "projected", "second_order"}},
-  {"ccd.max_iterations", 1, on, "1000000", integer, "1", {1, 1e9}, "Advances (chapter 1) or pairs of nodes (later) per query before it ends as unresolved.", "10000", {}},
-  {"ccd.warm_start", 1, 1, "true", boolean, "", {}, "GJK begins with the simplex of the pose before; false shows what that saves.", "false", {}},
+  {"ccd", 1, on, none, section, "", {}, "Continuous collision detection.", "{tolerance: 1.0e-6}", {}, 3},
+  {"ccd.tolerance", 1, on, "1e-6", number, "m", {0, 1e3, true}, "Gap at which two bodies are in contact.", "1.0e-6", {}, 3},
+  {"ccd.bound", 1, 1, "second_order", choice, "", {}, "Motion bound, from the plainest to the sharpest; chapter 2 has its own.", "second_order", {"naive", "directional", "projected", "second_order"}, 0, "linear"},
+  {"ccd.max_iterations", 1, on, "1000000", integer, "1", {1, 1e9}, "Advances (chapter 1) or pairs of nodes (later) per query before it ends as unresolved.", "10000", {}, 3},
+  {"ccd.warm_start", 1, 1, "true", boolean, "", {}, "GJK begins with the simplex of the pose before; false shows what that saves.", "false", {}, 0, "linear"},
   {"solver", 3, on, none, section, "", {}, "The solver of the contact equations.", "{method: dantzig}", {}},
   {"solver.method", 3, on, "dantzig", choice, "", {}, "Algorithm that solves the LCP.", "dantzig", {"dantzig", "lemke", "pgs", "interior_point"}},
   {"solver.limit", 3, on, "the method's own", integer, "1", {1, 1e9}, "Pivots, sweeps or Newton steps after which the method ends as limit.", "1000", {}},
-  {"solver.tolerance", 3, on, "1.0e-10", number, "1", {0, 1, true}, "Residual at which pgs and interior_point are done; pivoting methods have no use for it.", "1.0e-12", {}},
+  {"solver.tolerance", 3, on, "1.0e-10", number, "1", {0, 1, true}, "Residual that an answer must have; pgs and interior_point are done when they have it.", "1.0e-12", {}},
   {"solver.compare", 3, 3, "false", boolean, "", {}, "Solve the same LCP by every other method too, for solvers.csv.", "true", {}},
 
   {"shapes", 1, on, bodies_needed, named, "", {}, "Shapes by name; bodies refer to them.", "{ball: {sphere: {radius: 0.5}, mass: 1}}", {}},
@@ -167,7 +167,8 @@ const SceneKey* find_scene_key(const std::string& path) {
 std::vector<std::string> scene_keys_below(const std::string& parent, int chapter) {
   std::vector<std::string> names;
   for (const SceneKey& key : scene_keys()) {
-    if (parent_of(key.path) == parent && key.known_in(chapter)) names.push_back(key.last_name());
+    if (parent_of(key.path) == parent && (chapter == 0 || key.known_in(chapter)))
+      names.push_back(key.last_name());
   }
   return names;
 }

@@ -52,11 +52,14 @@ struct SceneKey {
   std::string meaning;  // one sentence
   std::string example;  // a value, as written in a scene
   std::vector<std::string> choices;
+  int except = 0;                // a chapter between first and last in which it would have no effect
+  std::string idle_beside = {};  // the key at the top beside which it would have none, or ""
 
   std::string last_name() const { return path.substr(path.rfind('.') + 1); }
-  bool known_in(int chapter) const { return first <= chapter && chapter <= last; }
+  bool known_in(int chapter) const { return first <= chapter && chapter <= last && chapter != except; }
   std::string type_text() const;      // "number", "[x, y, z]", ...
-  std::string chapters_text() const;  // "chapter 3", "chapters 1 and 2", "from chapter 4 on"
+  std::string chapters_text() const;  // "chapters 1 and 2 and chapter 4 on"
+  std::string meaning_text() const;   // the meaning, and beside which key there is none
 };
 
 // A key, or a key's value, that a later chapter or a chapter's complete form will bring.
@@ -71,11 +74,14 @@ struct LaterName {
 const std::vector<SceneKey>& scene_keys();
 const std::vector<LaterName>& later_names();
 
+// "chapter 3", "chapters 1 and 2", "chapter 4 on", "all chapters".
+std::string chapters_text(int first, int last);
+
 // The row of the table with this path, or nullptr.
 const SceneKey* find_scene_key(const std::string& path);
 
-// The keys directly below a path ("" = the top) that a chapter knows, by their last names.
-std::vector<std::string> scene_keys_below(const std::string& parent, int chapter);
+// The keys directly below a path ("" = the top) that a chapter knows, or any (0), by their last names.
+std::vector<std::string> scene_keys_below(const std::string& parent, int chapter = 0);
 
 // The later name, or nullptr.
 const LaterName* find_later_name(const std::string& name);

@@ -80,10 +80,19 @@ std::string SceneKey::type_text() const {
   return "";
 }
 
-std::string SceneKey::chapters_text() const {
+std::string chapters_text(int first, int last) {
   if (last == all_later_chapters) return first == 1 ? "all chapters" : fmt::format("chapter {} on", first);
   if (first == last) return fmt::format("chapter {}", first);
   return fmt::format("chapters {} {} {}", first, last == first + 1 ? "and" : "to", last);
+}
+
+std::string SceneKey::chapters_text() const {
+  if (except == 0) return fc::chapters_text(first, last);
+  return fc::chapters_text(first, except - 1) + " and " + fc::chapters_text(except + 1, last);
+}
+
+std::string SceneKey::meaning_text() const {
+  return meaning + (idle_beside.empty() ? "" : " Not beside " + idle_beside + ".");
 }
 
 std::string LaterName::text() const {
@@ -104,7 +113,7 @@ std::string scene_keys_help(int chapter) {
     const std::string needed =
         key.fallback.starts_with("required") ? key.fallback : "default: " + key.fallback;
     text += fmt::format("  {}  {} ({})\n", padded(key.path, width), value_text(key), needed);
-    text += fmt::format("  {}  {} Example: {}: {}\n", padded("", width), key.meaning, key.last_name(),
+    text += fmt::format("  {}  {} Example: {}: {}\n", padded("", width), key.meaning_text(), key.last_name(),
                         key.example);
   }
   return text;
@@ -121,7 +130,7 @@ std::string scene_keys_markdown() {
   for (const SceneKey& key : scene_keys()) {
     text += fmt::format("| `{}` | {} | {} | {} | {} | {} | {} | `{}` |\n", key.path, key.chapters_text(),
                         cell(key.fallback), cell(key.type_text()), key.unit, cell(key.range.text()),
-                        cell(key.meaning), key.example);
+                        cell(key.meaning_text()), key.example);
   }
   text += "\nNames that are refused until they exist:\n\n| name | |\n| --- | --- |\n";
   for (const LaterName& later : later_names())

@@ -1,5 +1,7 @@
 #include "common/shape.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -276,6 +278,12 @@ Shape build_shape(const ShapeSpec& spec, double scene_restitution) {
   for (Shape& part : shape.parts)
     for (Vec3& v : part.core.vertices) v -= shape.mass.center_of_mass;
   shape.reach = reach_of(shape);
+  constexpr double smallest = 1e-12, largest = 1e15;  // m: beyond, single precision cannot hold its boxes
+  require(
+      shape.reach >= smallest && shape.reach <= largest, spec.geometry_where,
+      fmt::format(
+          "{} reaches {:.3g} m from its centre of mass; {:g} m to {:g} m can be computed; change its size",
+          called(spec), shape.reach, smallest, largest));
   return shape;
 }
 

@@ -38,13 +38,14 @@ struct TableWriter::File {
   std::FILE* stream = nullptr;
 
   [[noreturn]] void fail(const std::string& message) const {
-    throw NumericalFailure(path.string() + ": " + message);
+    throw NumericalFailure(path.filename().string() + ": " + message);
   }
   void write(const std::string& line) const {
     if (std::fwrite(line.data(), 1, line.size(), stream) != line.size()) fail_to_write();
   }
   [[noreturn]] void fail_to_write() const {
-    throw std::runtime_error(path.string() + ": cannot be written to the end: " + std::strerror(errno));
+    throw std::runtime_error(path.filename().string() +
+                             ": cannot be written to the end: " + std::strerror(errno));
   }
 };
 

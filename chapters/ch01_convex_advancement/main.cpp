@@ -32,6 +32,11 @@ int run(const Scene& scene, const RunContext& context, Summary& summary) {
   return 0;
 }
 
+void check(const Scene& scene) {
+  if (scene.linear) ca::linear_queries(scene);
+  if (!scene.linear) ca::query_motions(scene, build_shapes(scene, false));
+}
+
 std::vector<Effect> explain(const Scene& scene) {
   if (scene.linear)
     return {{"collision queries", "declared at line " + std::to_string(scene.mark("linear")->line),
@@ -59,5 +64,6 @@ int main(int argc, char** argv) {
       "--certificate";
   chapter.explain = explain;
   chapter.run = run;
+  chapter.check = check;
   return run_program(argc, argv, chapter);
 }

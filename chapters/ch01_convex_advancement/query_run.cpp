@@ -1,6 +1,8 @@
 #include "ch01_convex_advancement/query_run.hpp"
 #include "common/stopwatch.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -50,9 +52,6 @@ struct Tables {
                                                                                    {"gap_lower", "m"},
                                                                                    {"speed_bound", "m/s"},
                                                                                    {"advance", "s"}});
-    // An earlier run's proof of other answers must not stay beside these.
-    if (!context.certificate) std::filesystem::remove(context.out_dir / "certificate.csv");
-    std::filesystem::remove(leaves_file);
   }
   void close() {
     queries.close();
@@ -119,6 +118,28 @@ MotionRecording recorded(const Scene& scene, const std::vector<Shape>& shapes, c
   for (const FeaturePair& f : result.features)
     motion.contact(end, 0.5 * (f.point_a + f.point_b), f.normal, 1);
   return motion;
+}
+
+// What a scene says of its bodies that no query depends on: told, so that nothing is passed over in silence.
+void tell_the_rest(const Scene& scene, const std::vector<Shape>& shapes, Summary& summary) {
+  for (const Shape& shape : shapes) {
+    if (shape.mass.mass == 0) continue;
+    const Mat3& i = shape.mass.inertia;
+    summary.add("shape " + shape.name + ", mass (of no effect on queries)", shape.mass.mass, "kg");
+    summary.add("shape " + shape.name + ", inertia (of no effect on queries)",
+                fmt::format("[{:.6g}, {:.6g}, {:.6g}, {:.6g}, {:.6g}, {:.6g}]", i(0, 0), i(1, 1), i(2, 2),
+                            i(0, 1), i(0, 2), i(1, 2)),
+                "kg m^2");
+  }
+  for (const char* key : {"static", "position", "orientation", "velocity", "spin"}) {
+    const bool given =
+        scene.mark(fmt::format("bodies.0.{}", key)) || scene.mark(fmt::format("bodies.1.{}", key));
+    if (!given) continue;
+    if (key == std::string("static"))
+      summary.add("static bodies", scene.bodies[0].is_static + std::int64_t{scene.bodies[1].is_static});
+    else if (scene.motions)
+      summary.add(fmt::format("{} of the bodies", key), "that of the motions file, not the scene's");
+  }
 }
 
 }  // namespace
@@ -196,6 +217,7 @@ void run_queries(const Scene& scene, const std::vector<Shape>& shapes,
         if (add_hulls) add_hulls(motion);
         summary.add_note("motion", motion.write(context.out_dir));
       });
+  tell_the_rest(scene, shapes, summary);
 }
 
 }  // namespace fc::ca

@@ -82,5 +82,6 @@ int main(int argc, char** argv) {
   chapter.example = "build/bin/ch02_hull_hierarchy chapters/ch02_hull_hierarchy/scenes/two_bunnies.yaml";
   chapter.explain = explain;
   chapter.run = run;
+  chapter.check = [](const Scene& scene) { ca::query_motions(scene, build_shapes(scene, false)); };
   return run_program(argc, argv, chapter);
 }

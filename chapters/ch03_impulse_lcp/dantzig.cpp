@@ -83,6 +83,7 @@ void run_trial(detail::DantzigCore<Real>& core, Verifier& verifier, const Lcp& p
     verdict = refined;
   }
   result.residual = verdict.residual;
+  if (result.status == Status::no_solution) result.certificate = core.certificate();
   if (!result.z.allFinite() ||
       !result.w.allFinite()) {  // an overflow: numbers near 1e300, or a hopeless matrix
     result.z.setZero();
@@ -95,13 +96,14 @@ void run_trial(detail::DantzigCore<Real>& core, Verifier& verifier, const Lcp& p
   }
 }
 
-// Whether a row whose w is negative for every z >= 0 shows that there is no solution: its part of A is <= 0.
-bool hopeless_row(const Lcp& problem) {
-  if (problem.boxed()) return false;
+// A row whose w is negative for every z >= 0, because its part of A is <= 0, shows that there is no solution;
+// -1: no such row.
+Eigen::Index hopeless_row(const Lcp& problem) {
+  if (problem.boxed()) return -1;
   for (Eigen::Index i = 0; i < problem.size(); ++i) {
-    if (problem.b[i] < 0 && problem.A.row(i).maxCoeff() <= 0) return true;
+    if (problem.b[i] < 0 && problem.A.row(i).maxCoeff() <= 0) return i;
   }
-  return false;
+  return -1;
 }
 
 }  // namespace
@@ -112,11 +114,14 @@ void DantzigSolver::solve(const Lcp& problem, const DantzigOptions& options, Lcp
     throw std::invalid_argument("LCP: the guess has " + std::to_string(options.start->size()) +
                                 " entries, the problem " + std::to_string(problem.size()) + " rows");
   }
+  result.certificate.resize(0);
   Memory& memory = *memory_;
   if (!memory.plain.load(problem)) {
     result.z = VecX::Zero(problem.size());
     result.residual = memory.verifier.judge(problem, result.z, result.w).residual;
-    result.status = hopeless_row(problem) ? Status::no_solution : Status::unsuited;
+    const Eigen::Index hopeless = hopeless_row(problem);
+    result.status = hopeless >= 0 ? Status::no_solution : Status::unsuited;
+    if (hopeless >= 0) result.certificate = VecX::Unit(problem.size(), hopeless);
     result.pivots = 0;
     return;
   }
@@ -144,7 +149,9 @@ void DantzigSolver::solve(const Lcp& problem, const DantzigOptions& options, Lcp
     first = false;
     if (result.status == Status::solved && result.residual <= kGoodResidual) break;
     if (trial.status == Status::no_solution || result.status == Status::no_solution) {
-      result.status = result.status == Status::solved ? Status::solved : Status::no_solution;
+      if (result.status == Status::solved) break;
+      if (result.status != Status::no_solution) result.certificate = trial.certificate;
+      result.status = Status::no_solution;
       break;
     }
   }

@@ -42,6 +42,7 @@ class DantzigCore {
   Status solve(const Attempt& attempt, const VecX* start, int max_pivots);
   // n; within the bounds exactly.
   void impulses(VecX& z) const;
+  const VecX& certificate() const { return certificate_; }  // of the last solve, if it ended with no_solution
   // Solves the basis afresh, and drives again what round-off has left violated, until nothing is.
   Status improve();
   // One step of iterative refinement of the basis: its residual w is taken from the matrix as given in
@@ -80,7 +81,7 @@ class DantzigCore {
   void settle(int d);
   void enter(int i);
   void leave(int position, bool upper);
-  bool proves_infeasible(int d) const;
+  bool proves_infeasible(int d);
   // dantzig_predict.cpp
   bool guess(const VecX* start);
   void predict();
@@ -131,6 +132,7 @@ class DantzigCore {
   int pivots_ = 0, max_pivots_ = 0, pivots_solved_ = 0;
   int zero_steps_ = 0;  // in a row: degenerate pivots
   Real lowest_schur_ = 0;
+  VecX certificate_;
 };
 
 extern template class DantzigCore<double>;

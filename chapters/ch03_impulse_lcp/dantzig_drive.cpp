@@ -119,11 +119,12 @@ void DantzigCore<Real>::leave(int position, bool upper) {
 
 // Whether the direction, along which nothing stops row d, proves that no solution exists.
 template <class Real>
-bool DantzigCore<Real>::proves_infeasible(int d) const {
+bool DantzigCore<Real>::proves_infeasible(int d) {
   VecX y = VecX::Zero(n_);
   for (int i = first_; i < first_ + extent_; ++i) y[i] = static_cast<double>(dz_[i] * inverse_scale_[i]);
   y[d] = static_cast<double>(dz_[d] * inverse_scale_[d]);
-  return certifies_no_solution(*problem_, y);
+  certificate_ = no_solution_certificate(*problem_, y);
+  return certificate_.size() > 0;
 }
 
 // Row d has reached w_d = 0 to within round-off without being the one that blocked: puts it where it belongs.

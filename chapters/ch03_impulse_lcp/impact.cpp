@@ -87,6 +87,8 @@ Status solve_once(std::span<RigidBody> bodies, std::span<const Contact> contacts
   const LcpResult lcp = options.solver ? options.solver(rows) : solve_dantzig(rows);
   result.rows += static_cast<int>(problem.b.size());
   result.pivots += lcp.pivots;
+  result.failed_pivots = lcp.pivots;
+  result.failed_residual = lcp.residual;
   if (lcp.status != Status::solved) return lcp.status;
   const double achieved = residual(rows, lcp.z, evaluate(problem.A, problem.b, lcp.z));
   if (!(achieved <= kResidual) || !acceptable(rows, lcp.z, lcp.w)) return Status::limit;

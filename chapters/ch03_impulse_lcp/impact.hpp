@@ -36,10 +36,12 @@ struct ImpactResult {
   int rows = 0;                    // of all solves together
   int pivots = 0;                  // of all solves together
   double worst_residual = 0;       // of the solves
-  double energy_change = 0;        // J, measured on the bodies
-  double energy_identity = 0;      // J, 1/2 sum (1 - epsilon_i) j_i v_i- and kinematic_work: what it must be
-  double kinematic_work = 0;       // J, done by bodies of infinite mass that move
-  double fastest_approach = 0;     // m/s, >= 0: what is left after the last solve, below the stated rounding
+  int failed_pivots = 0;           // of the last solve, the one that failed: how far it came
+  double failed_residual = 0;
+  double energy_change = 0;     // J, measured on the bodies
+  double energy_identity = 0;   // J, 1/2 sum (1 - epsilon_i) j_i v_i- and kinematic_work: what it must be
+  double kinematic_work = 0;    // J, done by bodies of infinite mass that move
+  double fastest_approach = 0;  // m/s, >= 0: what is left after the last solve, below the stated rounding
   // Mixed restitutions had no solution: the smallest of the set was used for all.
   bool restitution_lowered = false;
 };

@@ -113,7 +113,8 @@ LcpResult solve_interior_point(const Lcp& problem, const SolveOptions& options) 
       break;
     }
     result.status = Status::limit;
-    if (certifies_no_solution(problem, z.cwiseQuotient(scale))) {
+    result.certificate = no_solution_certificate(problem, z.cwiseQuotient(scale));
+    if (result.certificate.size() > 0) {
       result.status = Status::no_solution;
       ++step;
       break;

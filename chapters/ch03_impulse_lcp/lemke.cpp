@@ -227,8 +227,8 @@ LcpResult solve_lemke(const Lcp& problem, const SolveOptions& options) {
     LcpResult result = judged(problem, method.impulses(), status);
     pivots += method.pivots();
     if (status == Status::solved) polish(problem, method.active(), result);
-    if (status == Status::ray && certifies_no_solution(problem, method.ray()))
-      result.status = Status::no_solution;
+    if (status == Status::ray) result.certificate = no_solution_certificate(problem, method.ray());
+    if (result.certificate.size() > 0) result.status = Status::no_solution;
     result.pivots = pivots;
     if (result.status == Status::solved || result.status == Status::no_solution) return result;
     if (slant == kSlants.front()) first = std::move(result);

@@ -8,6 +8,7 @@
 #include "ch03_impulse_lcp/impact.hpp"
 #include "ch03_impulse_lcp/matrix_market.hpp"
 #include "ch03_impulse_lcp/solver.hpp"
+#include "ch03_impulse_lcp/unsolved.hpp"
 #include "common/pair_rules.hpp"
 #include "common/program.hpp"
 #include "common/shape.hpp"
@@ -42,17 +43,22 @@ TimedResult solve_timed(const Lcp& problem, const SolverSpec& spec) {
 void write_solution(const Lcp& problem, const TimedResult& solved, const SolverSpec& spec,
                     const RunContext& context, Summary& summary) {
   const LcpResult& lcp = solved.lcp;
-  TableWriter solution(context.out_dir / "solution.csv", {{"row", ""}, {"z", ""}, {"w", ""}});
-  for (Eigen::Index i = 0; i < lcp.z.size(); ++i) solution.row({std::int64_t{i}, lcp.z[i], lcp.w[i]});
+  // z and w, and where there is no solution, the proof: y >= 0 with A'y <= 0 and b'y < 0.
+  const bool proved = lcp.status == Status::no_solution;
+  std::vector<Column> columns = {{"row", ""}, {"z", ""}, {"w", ""}};
+  if (proved) columns.push_back({"y", ""});
+  TableWriter solution(context.out_dir / "solution.csv", columns);
+  for (Eigen::Index i = 0; i < lcp.z.size(); ++i) {
+    std::vector<Cell> cells = {std::int64_t{i}, lcp.z[i], lcp.w[i]};
+    if (proved) cells.emplace_back(lcp.certificate[i]);
+    solution.row(cells);
+  }
   solution.close();
   summary.add("solver", spec.method);
   summary.add("status", name(lcp.status));
   summary.add("rows", std::int64_t{lcp.z.size()});
   const Method chosen = method_named(spec.method);
-  const std::string unit = chosen == Method::pgs              ? "sweeps"
-                           : chosen == Method::interior_point ? "steps"
-                                                              : "pivots";
-  summary.add(unit, std::int64_t{lcp.pivots});
+  summary.add(counted_by(spec.method), std::int64_t{lcp.pivots});
   summary.add("residual", lcp.residual, "1");
 
   TableWriter solvers(
@@ -74,17 +80,6 @@ void write_solution(const Lcp& problem, const TimedResult& solved, const SolverS
   solvers.close();
 }
 
-// After the tables are written: a run without a solution ends with exit code 3 and says why.
-void require_solved(Status status, const SolverSpec& spec) {
-  if (status == Status::solved) return;
-  const char* why = status == Status::no_solution
-                        ? "the problem has no solution; this is proved by a certificate"
-                    : status == Status::unsuited ? "the matrix is not one that this method is made for"
-                    : status == Status::ray      ? "the method ended on a ray, which proves nothing"
-                                                 : "its limit was reached or round-off won";
-  throw NumericalFailure(fmt::format("{}: {}: {}", spec.method, name(status), why));
-}
-
 // A vector in a Matrix Market file: one column of n numbers.
 VecX read_vector(const std::filesystem::path& file, Eigen::Index n) {
   const MatX column = read_matrix_market(file);
@@ -96,17 +91,28 @@ VecX read_vector(const std::filesystem::path& file, Eigen::Index n) {
   return column;
 }
 
-int run_lcp(const LcpSpec& spec, const SolverSpec& solver, const RunContext& context, Summary& summary) {
-  const MatX A = spec.matrix ? *spec.matrix : read_matrix_market(*spec.matrix_file);
-  if (A.rows() != A.cols()) {
+struct GivenLcp {
+  MatX A;
+  VecX b;
+  std::optional<VecX> solution;
+};
+
+GivenLcp read_lcp_of(const LcpSpec& spec) {
+  GivenLcp given;
+  given.A = spec.matrix ? *spec.matrix : read_matrix_market(*spec.matrix_file);
+  const auto n = given.A.rows();
+  if (n != given.A.cols()) {
     const SourceMark where = spec.matrix_file ? SourceMark{spec.matrix_file->string(), 0, 0} : spec.where;
     throw InputError(where,
-                     fmt::format("the matrix of an LCP is square, this one is {} by {}", A.rows(), A.cols()));
+                     fmt::format("the matrix of an LCP is square, this one is {} by {}", n, given.A.cols()));
   }
-  const VecX b = spec.vector ? *spec.vector : read_vector(*spec.vector_file, A.rows());
-  std::optional<VecX> known;
-  if (spec.solution_file) known = read_vector(*spec.solution_file, A.rows());
+  given.b = spec.vector ? *spec.vector : read_vector(*spec.vector_file, n);
+  if (spec.solution_file) given.solution = read_vector(*spec.solution_file, n);
+  return given;
+}
 
+int run_lcp(const LcpSpec& spec, const SolverSpec& solver, const RunContext& context, Summary& summary) {
+  const auto [A, b, known] = read_lcp_of(spec);
   const TimedResult solved = solve_timed({A, b}, solver);
   write_solution({A, b}, solved, solver, context, summary);
   if (known && b.size() > 0) {
@@ -115,7 +121,13 @@ int run_lcp(const LcpSpec& spec, const SolverSpec& solver, const RunContext& con
                 (solved.lcp.w - evaluate(A, b, *known)).lpNorm<Eigen::Infinity>());
   }
   summary.counter(solver.method, 1, solved.ns);
-  require_solved(solved.lcp.status, solver);
+  if (solved.lcp.status == Status::no_solution)  // after the tables are written
+    throw SceneFailure(
+        "there is no solution: the column y of solution.csv proves it, A'y <= 0 and b'y < 0; "
+        "change A or b",
+        "lcp");
+  if (solved.lcp.status != Status::solved)
+    throw unsolved(solver, solved.lcp.status, solved.lcp.pivots, solved.lcp.residual);
   return 0;
 }
 
@@ -218,7 +230,8 @@ int run_contacts(const Scene& scene, const RunContext& context, Summary& summary
   summary.add("fastest approach left", impact.fastest_approach, "m/s");
   summary.counter("impact", impact.solves, impact_ns);
   summary.counter(scene.solver.method, solver_runs, solver_ns);
-  require_solved(impact.status, scene.solver);
+  if (impact.status != Status::solved)
+    throw unsolved(scene.solver, impact.status, impact.failed_pivots, impact.failed_residual);
   return 0;
 }
 
@@ -250,6 +263,11 @@ std::vector<Effect> explain(const Scene& scene) {
   return effects;
 }
 
+void check(const Scene& scene) {
+  if (scene.lcp) read_lcp_of(*scene.lcp);
+  if (!scene.lcp) build_shapes(scene, true);
+}
+
 int run(const Scene& scene, const RunContext& context, Summary& summary) {
   return scene.lcp ? run_lcp(*scene.lcp, scene.solver, context, summary)
                    : run_contacts(scene, context, summary);
@@ -269,5 +287,6 @@ int main(int argc, char** argv) {
            "b.mtx.",
        .example = "build/bin/ch03_impulse_lcp chapters/ch03_impulse_lcp/scenes/newtons_cradle.yaml",
        .explain = explain,
-       .run = run});
+       .run = run,
+       .check = check});
 }

@@ -117,6 +117,10 @@ VecX evaluate(const MatX& A, const VecX& b, const VecX& z) {
 }
 
 bool certifies_no_solution(const Lcp& problem, const VecX& y) {
+  return no_solution_certificate(problem, y).size() > 0;
+}
+
+VecX no_solution_certificate(const Lcp& problem, const VecX& y) {
   const Eigen::Index n = problem.size();
   VecX scale(n), clean = VecX::Zero(n);
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -124,14 +128,15 @@ bool certifies_no_solution(const Lcp& problem, const VecX& y) {
     if (y[i] > 0 ? std::isinf(problem.high(i)) : std::isinf(problem.low(i))) clean[i] = y[i];
   }
   const double size = clean.cwiseProduct(scale).lpNorm<1>();
-  if (!(size > 0)) return false;
+  if (!(size > 0)) return {};
   clean /= size;
   const VecX Ay = (problem.A.transpose() * clean).cwiseQuotient(scale);
   const double largest = problem.boxed() ? Ay.lpNorm<Eigen::Infinity>() : Ay.maxCoeff();
   const double gap = -problem.b.dot(clean), b_size = problem.b.cwiseQuotient(scale).lpNorm<Eigen::Infinity>();
   // 0 <= y'w = (A'y)'z - gap needs a z with sum z >= gap / largest.
-  return gap > kCertificateGap * problem.b.cwiseAbs().dot(clean.cwiseAbs()) &&
-         largest * kHugeImpulse * b_size <= gap;
+  const bool proves = gap > kCertificateGap * problem.b.cwiseAbs().dot(clean.cwiseAbs()) &&
+                      largest * kHugeImpulse * b_size <= gap;
+  return proves ? clean : VecX();
 }
 
 // Column by column, as A lies in memory.

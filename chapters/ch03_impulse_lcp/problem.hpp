@@ -50,11 +50,12 @@ struct Lcp {
 // as an answer.
 struct LcpResult {
   Status status = Status::limit;
-  VecX z;               // n
-  VecX w;               // n, always A z + b, computed anew from z
-  double residual = 0;  // of (z, w), see residual()
-  int pivots = 0;       // exchanges of a row between the sets "z >= 0, w = 0" and "z = 0, w >= 0"; of an
-                        // iterative method its sweeps, of Newton's its steps
+  VecX z;                 // n
+  VecX w;                 // n, always A z + b, computed anew from z
+  double residual = 0;    // of (z, w), see residual()
+  int pivots = 0;         // exchanges of a row between the sets "z >= 0, w = 0" and "z = 0, w >= 0"; of an
+                          // iterative method its sweeps, of Newton's its steps
+  VecX certificate = {};  // n, y of no_solution_certificate(), if the status is no_solution; else empty
 };
 
 // Throws std::invalid_argument unless A is n by n, b is n long, all their entries are finite, and the bounds
@@ -86,6 +87,9 @@ bool acceptable(const Lcp& problem, const VecX& z, const VecX& w);
 // than 1e8 times what b asks of single rows; and b'y must be below -1e-9 |b|'y, or it may be round-off in b.
 // Entries of y of the wrong sign count as 0.
 bool certifies_no_solution(const Lcp& problem, const VecX& y);
+// The same y without its entries of the wrong sign, and of size 1 in rows scaled to a diagonal of 1: what anyone
+// can multiply. Empty if it certifies nothing.
+VecX no_solution_certificate(const Lcp& problem, const VecX& y);
 
 // What a solver asks at its end; residual() and acceptable() at once, without memory from the heap once it
 // has met problems as large.

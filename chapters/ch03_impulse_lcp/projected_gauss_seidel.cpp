@@ -35,7 +35,10 @@ LcpResult solve_pgs(const Lcp& problem, const SolveOptions& options) {
     z[i] = std::clamp(z[i], problem.low(i), problem.high(i));
     if (A(i, i) > 0) continue;
     if (!A.row(i).isZero(0)) return refused(problem, Status::unsuited);
-    if (!settle_zero_row(problem, i, z)) return refused(problem, Status::no_solution);
+    if (settle_zero_row(problem, i, z)) continue;
+    LcpResult result = refused(problem, Status::no_solution);
+    result.certificate = (problem.b[i] < 0 ? 1 : -1) * VecX::Unit(n, i);
+    return result;
   }
 
   // A sweep walks along the rows of A: these are the columns of its transpose, which lie in memory one after

@@ -31,18 +31,27 @@ Method method_named(std::string_view name) {
   throw std::invalid_argument("LCP: no method is called '" + std::string(name) + "'");
 }
 
+void require(double tolerance, LcpResult& result) {
+  if (result.status == Status::solved && tolerance > 0 && result.residual > tolerance)
+    result.status = Status::limit;
+}
+
 LcpResult solve(const Lcp& problem, Method method, const SolveOptions& options) {
+  LcpResult result;
   switch (method) {
-    case Method::dantzig:
-      break;
-    case Method::lemke:
-      return solve_lemke(problem, options);
     case Method::pgs:
       return solve_pgs(problem, options);
     case Method::interior_point:
       return solve_interior_point(problem, options);
+    case Method::lemke:
+      result = solve_lemke(problem, options);
+      break;
+    case Method::dantzig:
+      result = solve_dantzig(problem, {.max_pivots = options.limit, .start = options.start});
+      break;
   }
-  return solve_dantzig(problem, {.max_pivots = options.limit, .start = options.start});
+  require(options.tolerance, result);
+  return result;
 }
 
 }  // namespace fc::lcp

@@ -30,10 +30,14 @@ Method method_named(std::string_view name);
 
 struct SolveOptions {
   int limit = 0;         // pivots, sweeps or steps; 0: the method's own, stated in its header
-  double tolerance = 0;  // the residual at which an iterative method stops; 0: the method's own
+  double tolerance = 0;  // the residual at which an iterative method stops, and that others must have; 0: the
+                         // method's own
   // n, a guess of z (the last step's, say); methods that cannot use it ignore it.
   const VecX* start = nullptr;
 };
+
+// A residual beyond the tolerance (if > 0) turns `solved` into `limit`.
+void require(double tolerance, LcpResult& result);
 
 // Solves the problem by the method. Guarantee: `solved` only if the result passed acceptable(); a method that
 // cannot have such a problem (bounds, a matrix outside its class) says `unsuited`. Throws

@@ -1,5 +1,7 @@
 #include "ch04_multibody_stepping/contact_search.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,6 +9,7 @@
 #include "ch02_hull_hierarchy/features.hpp"
 #include "ch04_multibody_stepping/passing_plane.hpp"
 #include "ch04_multibody_stepping/sensors.hpp"
+#include "common/scene_failure.hpp"
 
 namespace fc::world {
 namespace {
@@ -118,7 +121,6 @@ void turn_contact(const NearPair& near, const Vec3& normal, ca::FeaturePair& f) 
 // along which the bodies close in slowest, if there is one that parts them: see passing_plane.hpp.
 void turn_to_passing_planes(const NearPair& near, const Vec3& origin_a,
                             std::vector<ca::FeaturePair>& features) {
-  if (!near.a.filled || !near.b.filled) return;  // the hull of a mesh says little of what its teeth touch
   for (ca::FeaturePair& f : features) {
     if (f.kind_a == ca::FeatureKind::face || f.kind_b == ca::FeatureKind::face) continue;
     const Witnesses at = near.cores(f.point_a - origin_a, f.point_b - origin_a, f.normal);
@@ -278,8 +280,13 @@ void find_next_contact(const World& world, Pair& pair, double now, double dt, st
   pair.stalled = limit ? little : little || !(now + reach.time > now);
   pair.contact = !limit || pair.stalled;
   pair.time = pair.stalled ? now : now + reach.time;
-  FC_CHECK(pair.contact || pair.time > now,
-           "the search for the next contact reached its limit without progress");
+  if (!pair.contact && !(pair.time > now))
+    throw SceneFailure(
+        fmt::format(
+            "ccd.max_iterations = {} pairs of nodes did not get the search for the next contact of bodies "
+            "{} and {} on; raise it",
+            world.max_pairs, pair.a, pair.b),
+        "ccd.max_iterations");
 }
 
 Island touching_island(const World& world, const Pair& pair, double now, StepReport& report) {

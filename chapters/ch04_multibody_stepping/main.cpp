@@ -24,5 +24,6 @@ int main(int argc, char** argv) {
       "build/bin/ch04_multibody_stepping chapters/ch04_multibody_stepping/scenes/two_bunnies.yaml --poses";
   chapter.explain = world::explain;
   chapter.run = run;
+  chapter.check = [](const Scene& scene) { world::build_world(scene); };
   return run_program(argc, argv, chapter);
 }

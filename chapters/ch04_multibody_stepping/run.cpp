@@ -6,9 +6,10 @@
 namespace fc::world {
 
 int run_scene(const Scene& scene, const RunContext& context, Summary& summary, const StepFunction& step_frame,
-              bool kinds) {
+              bool kinds, const Prepare& prepare) {
   const Stopwatch watch;
   World world = build_world(scene);
+  if (prepare) prepare(world);
   const std::int64_t built_ns = watch.ns();
   summary.add("bodies", static_cast<std::int64_t>(world.bodies.size()));
   for (std::size_t i = 0; i < world.shapes.size(); ++i) {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "ch03_impulse_lcp/unsolved.hpp"
 #include "ch04_multibody_stepping/contact_search.hpp"
 #include "ch04_multibody_stepping/sensors.hpp"
 #include "ch04_multibody_stepping/sleep.hpp"
@@ -260,8 +261,8 @@ void Stepper::solve(const Island& island, double now) {
   if (world_.rest_speed > 0) settle(local);
   const Totals before(local.states);
   const lcp::ImpactResult impact = lcp::resolve_impact(local.states, local.contacts, world_.impact);
-  FC_CHECK(impact.status == lcp::Status::solved,
-           std::string("the contacts of an instant could not be solved: ") + lcp::name(impact.status));
+  if (impact.status != lcp::Status::solved)
+    throw lcp::unsolved(world_.solver, impact.status, impact.failed_pivots, impact.failed_residual);
   const Totals after(local.states);
   report_.contacts += static_cast<int>(island.contacts.size()) * impact.solves;
   report_.impacts += static_cast<int>(impact.impulses.size());

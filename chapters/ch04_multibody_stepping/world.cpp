@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 
+#include "ch01_convex_advancement/penetration.hpp"
 #include "ch02_hull_hierarchy/inside.hpp"
 #include "ch03_impulse_lcp/dantzig.hpp"
 #include "ch03_impulse_lcp/solver.hpp"
@@ -36,6 +37,21 @@ double least_tolerance(const World& world) {
   return least;
 }
 
+// "along (0, 0, 1) they do by 0.001 m, more than"; for a mesh no number: its depth would be a guess.
+std::string depth_text(const World& world, const ca::PairPose& pose, int a, int b) {
+  if (!world.convex(a) || !world.convex(b)) return "their surfaces cross by more than";
+  const Shape& shape_a = world.shapes[world.bodies[a].shape];
+  const Shape& shape_b = world.shapes[world.bodies[b].shape];
+  const ca::ConvexCore core_a(shape_a.core.vertices, shape_a.disks);
+  const ca::ConvexCore core_b(shape_b.core.vertices, shape_b.disks);
+  const ca::Penetration deep =
+      ca::penetration(core_a.convex(shape_a.radius), core_b.convex(shape_b.radius), pose);
+  const auto digits = [](double x) { return std::abs(x) < 5e-4 ? 0.0 : x; };  // no -0, no 1e-17
+  const Vec3& n = deep.direction;
+  return fmt::format("along ({:.3g}, {:.3g}, {:.3g}) they do by {:.4g} m, more than", digits(n.x()),
+                     digits(n.y()), digits(n.z()), deep.depth);
+}
+
 void refuse_overlap(const World& world, const Scene& scene, int a, int b) {
   const hulls::Model& model_a = world.model_of(a);
   const hulls::Model& model_b = world.model_of(b);
@@ -44,12 +60,11 @@ void refuse_overlap(const World& world, const Scene& scene, int a, int b) {
   const bool inside =
       gap >= -world.tolerance && hulls::one_inside_other(model_a, model_b, pose, world.tolerance);
   if (gap >= -world.tolerance && !inside) return;
-  const std::string how = inside ? "one lies inside the other" : fmt::format("by about {:.3g} m", -gap);
-  throw InputError(
-      scene.bodies[b].where,
-      fmt::format("bodies {} and {} overlap at the start ({}), more than the tolerance of {:.3g} m; "
-                  "move them apart",
-                  scene.body_text(a), scene.body_text(b), how, world.tolerance));
+  const std::string how = inside ? "one lies inside the other by more than" : depth_text(world, pose, a, b);
+  throw InputError(scene.bodies[b].where,
+                   fmt::format("bodies {} and {} overlap at the start: {} the tolerance of {:.3g} m; "
+                               "move them apart",
+                               scene.body_text(a), scene.body_text(b), how, world.tolerance));
 }
 
 void refuse_overlaps(const World& world, const Scene& scene) {
@@ -71,9 +86,10 @@ void refuse_overlaps(const World& world, const Scene& scene) {
 // The scene's solver of an instant's contacts. Dantzig's keeps its memory from one instant to the next.
 std::function<lcp::LcpResult(const lcp::Lcp&)> solver_of(const SolverSpec& spec) {
   if (spec.method == SolverSpec().method) {
-    return [solver = std::make_shared<lcp::DantzigSolver>(), limit = spec.limit](const lcp::Lcp& rows) {
+    return [solver = std::make_shared<lcp::DantzigSolver>(), spec](const lcp::Lcp& rows) {
       lcp::LcpResult result;
-      solver->solve(rows, {.max_pivots = limit}, result);
+      solver->solve(rows, {.max_pivots = spec.limit}, result);
+      lcp::require(spec.tolerance, result);
       return result;
     };
   }
@@ -266,6 +282,7 @@ World build_world(const Scene& scene) {
   for (const Shape& shape : world.shapes) world.models.push_back(hulls::build_model(shape));
   world.pair_rules = PairRules(scene);
   world.effects = effects_of(scene);
+  world.solver = scene.solver;
   world.impact.solver = solver_of(scene.solver);
   world.max_pairs = scene.ccd.max_iterations;
   for (const Shape& shape : world.shapes) {

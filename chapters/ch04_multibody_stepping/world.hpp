@@ -84,6 +84,7 @@ struct World {
   // (chapter 5).
   std::vector<std::pair<int, int>> proved;
   lcp::ImpactOptions impact = {};  // the solver of an instant's contacts
+  SolverSpec solver;               // what the scene says of it
 
   const hulls::Model& model_of(int body) const { return models[bodies[body].shape]; }
   double keep() const { return std::max(tolerance, reserve); }  // m: see find_next_contact()

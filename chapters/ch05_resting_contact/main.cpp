@@ -28,24 +28,24 @@ int run(const Scene& scene, const RunContext& context, Summary& summary) {
   std::int64_t contacts = 0, resting_contacts = 0, sweeps = 0, searched = 0, stopped = 0, checked = 0;
   int largest = 0;
   double energy = 0, steered = 0;
-  const int code = world::run_scene(
-      scene, context, summary,
-      [&](world::World& world, double dt, const world::Listeners& listeners) {
-        if (!resting) resting = std::make_unique<resting::Resting>(scene, world, dt);
-        const auto report = resting->step(world, listeners);
-        contacts += report.shell_contacts;
-        resting_contacts += report.resting;
-        sweeps += report.sweeps;
-        searched += report.searched;
-        stopped += report.stopped;
-        checked += report.checked;
-        largest = std::max(largest, report.largest_island);
-        energy += report.steering_energy;
-        steered = std::max(steered, report.steered);
-        return report.step;
-      },
-      true);
-  if (resting) summary.add("envelope", resting->envelope(), "m");
+  const auto prepare = [&](world::World& world) {
+    resting = std::make_unique<resting::Resting>(scene, world, scene.step->dt);
+  };
+  const auto step = [&](world::World& world, double, const world::Listeners& listeners) {
+    const auto report = resting->step(world, listeners);
+    contacts += report.shell_contacts;
+    resting_contacts += report.resting;
+    sweeps += report.sweeps;
+    searched += report.searched;
+    stopped += report.stopped;
+    checked += report.checked;
+    largest = std::max(largest, report.largest_island);
+    energy += report.steering_energy;
+    steered = std::max(steered, report.steered);
+    return report.step;
+  };
+  const int code = world::run_scene(scene, context, summary, step, true, prepare);
+  summary.add("envelope", resting->envelope(), "m");
   summary.add("contacts in the envelope", contacts);
   summary.add("resting contacts with an impulse", resting_contacts);
   summary.add("largest island", std::int64_t{largest}, "rows");
@@ -56,6 +56,11 @@ int run(const Scene& scene, const RunContext& context, Summary& summary) {
   summary.counter("envelope (pairs whose contacts were searched)", searched, 0);
   summary.counter("sweeps of Gauss-Seidel", sweeps, 0);
   return code;
+}
+
+void check(const Scene& scene) {
+  world::World world = world::build_world(scene);
+  if (scene.envelope) resting::Resting(scene, world, scene.step->dt);
 }
 
 }  // namespace
@@ -72,5 +77,6 @@ int main(int argc, char** argv) {
   chapter.example = "build/bin/ch05_resting_contact chapters/ch05_resting_contact/scenes/stack.yaml";
   chapter.explain = explain;
   chapter.run = run;
+  chapter.check = check;
   return run_program(argc, argv, chapter);
 }

@@ -1,9 +1,12 @@
 #include "ch05_resting_contact/resting.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <utility>
 
+#include "ch03_impulse_lcp/unsolved.hpp"
 #include "common/stopwatch.hpp"
 
 namespace fc::resting {
@@ -26,6 +29,12 @@ Resting::Resting(const Scene& scene, world::World& world, double dt, const RestO
       is_far_(world.bodies.size(), 0),
       still_(world.bodies.size(), 0),
       place_(world.bodies.size(), -1) {
+  const SolverSpec usual;
+  const SolverSpec& solver = world.solver;
+  if (solver.method != usual.method || solver.limit != usual.limit || solver.tolerance != usual.tolerance) {
+    options_.small.chosen = solver;
+    options_.crowd = std::numeric_limits<int>::max();  // crowds are solved by sweeps of their own
+  }
   world.touch = shell_.envelope();
   world.reserve = 0.5 * shell_.envelope();
 }
@@ -243,9 +252,17 @@ void Resting::solve(world::World& world, const std::vector<int>& members, RestRe
   IslandResult result = solver_.solve(island.bodies, island.contacts, allowed_, impulses_, options_.small);
   if (!result.solved && stop_driven(world, island, report))
     result = solver_.solve(island.bodies, island.contacts, allowed_, impulses_, options_.small);
-  FC_CHECK(result.solved, "the resting contacts of an island could not be solved");
+  if (!result.solved && options_.small.chosen)
+    throw lcp::unsolved(world.solver, result.status, result.sweeps, result.residual);
+  if (!result.solved)
+    throw SceneFailure(
+        fmt::format(
+            "{} resting contacts that belong together could not be solved: a residual of {:.2g} was left "
+            "after {} sweeps, {:g} may be; shorten step.dt, or take less unequal masses",
+            members.size(), result.residual, result.sweeps, options_.small.accepted),
+        "envelope");
   const int rows = static_cast<int>(members.size());
-  report.sweeps += result.sweeps;
+  if (!options_.small.chosen) report.sweeps += result.sweeps;
   report.largest_island = std::max(report.largest_island, rows);
   report.step.contacts += rows;
   report.step.lcp_rows += rows;

@@ -108,6 +108,37 @@ TEST_F(Program, EndsWith3AndWritesTheTablesIfThereIsNoSolution) {
   EXPECT_EQ(errors().find('\n'), errors().size() - 1);  // one line
 }
 
+TEST_F(Program, WritesTheProofThatThereIsNoSolution) {
+  for (const char* method : {"dantzig", "lemke", "interior_point"}) {
+    EXPECT_EQ(
+        run_text("lcp: {A: [[1, -1], [-1, 1]], b: [-2, 1]}\nsolver: {method: " + std::string(method) + "}\n"),
+        3);
+    const auto rows = table("solution.csv");
+    ASSERT_EQ(rows.size(), 3u);
+    EXPECT_EQ(rows[0], (Row{"row", "z", "w", "y"}));
+    const double y0 = std::stod(rows[1][3]), y1 = std::stod(rows[2][3]);
+    EXPECT_GE(std::min(y0, y1), 0) << method;
+    EXPECT_LE(std::max(y0 - y1, y1 - y0), 1e-9) << method << ": A'y <= 0";
+    EXPECT_LT(-2 * y0 + y1, 0) << method << ": b'y < 0";
+    EXPECT_NE(errors().find("scene.yaml:1:1: there is no solution"), std::string::npos) << errors();
+  }
+}
+
+TEST_F(Program, AFailureNamesTheKeyToChange) {
+  const std::string lcp = "lcp: {A: [[2, -1], [-1, 2]], b: [-2, 0]}\n";
+  EXPECT_EQ(run_text(lcp + "solver: {method: pgs, limit: 1}\n"), 3);
+  EXPECT_NE(
+      errors().find(
+          "scene.yaml:2:23: solver.method pgs stopped after solver.limit = 1 sweeps with a residual of"),
+      std::string::npos)
+      << errors();
+  EXPECT_EQ(run_text(lcp + "solver: {tolerance: 1.0e-30}\n"), 3);
+  EXPECT_NE(errors().find("scene.yaml:2:10: solver.method dantzig ended with a residual of"),
+            std::string::npos)
+      << errors();
+  EXPECT_EQ(errors().find(".cpp"), std::string::npos);
+}
+
 TEST_F(Program, EndsWith3ForAMatrixItIsNotMadeFor) {
   EXPECT_EQ(run_text("lcp: {A: [[0, 1], [1, 0]], b: [-1, -1]}\n"), 3);
   EXPECT_EQ(table("solvers.csv")[1][1], "unsuited");

@@ -253,5 +253,40 @@ TEST(MethodNames, AreReadBack) {
   EXPECT_THROW(method_named("gauss"), std::invalid_argument);
 }
 
+// Whoever says that there is no solution hands over the proof, and anyone can multiply it.
+TEST_P(EveryMethod, NoSolutionComesWithItsCertificate) {
+  std::vector<std::pair<MatX, VecX>> problems = {{MatX{{1, -1}, {-1, 1}}, VecX{{-2, 1}}},
+                                                 {MatX{{1, -1}, {-1, 1}} * 1e-8, VecX{{-2, 1}} * 1e5},
+                                                 {MatX{{1, 0}, {0, 0}}, VecX{{1, -1}}},
+                                                 {MatX{{2, 1}, {1, 2}}, VecX{{-1, -1}}}};  // this one has one
+  for (const Family family : kFamilies)
+    for (const int n : {8, 24})
+      if (const KnownProblem p = make_problem(family, n, 3); p.certificate.size() > 0)
+        problems.emplace_back(p.A, p.b);
+  int proved = 0;
+  for (const auto& [A, b] : problems) {
+    const LcpResult result = solve({A, b});
+    const VecX& y = result.certificate;
+    if (result.status != Status::no_solution) {
+      EXPECT_EQ(y.size(), 0);
+      continue;
+    }
+    ++proved;
+    ASSERT_EQ(y.size(), b.size());
+    EXPECT_GE(y.minCoeff(), 0);
+    EXPECT_LE((A.transpose() * y).maxCoeff(), 1e-7 * A.cwiseAbs().maxCoeff() * y.sum()) << "A'y <= 0";
+    EXPECT_LT(b.dot(y), 0);
+  }
+  EXPECT_GE(proved, 1);
+}
+
+// What the scene's solver.tolerance asks for, an answer of any method has.
+TEST_P(EveryMethod, AnAnswerHasTheResidualThatIsAskedFor) {
+  const MatX A{{3, -1, 0.3}, {-1, 3, 0.7}, {0.3, 0.7, 3}};
+  const VecX b{{-1.1, -0.3, -0.7}};
+  EXPECT_EQ(solve({A, b}, {.tolerance = 1e-9}).status, Status::solved);
+  EXPECT_NE(solve({A, b}, {.tolerance = 1e-30}).status, Status::solved);
+}
+
 }  // namespace
 }  // namespace fc::lcp

@@ -27,13 +27,13 @@ const std::string shapes =
 
 TEST(Overlap, AtTheStartIsRefusedWithTheBodysLine) {
   EXPECT_EQ(refusal(shapes + "  - {shape: ball, position: [0.9, 0, 0]}\n"),
-            "scene.yaml:7:5: bodies 0 and 1 overlap at the start (by about 0.1 m), more than the tolerance "
-            "of 1e-06 m; move them apart");
+            "scene.yaml:7:5: bodies 0 and 1 overlap at the start: along (1, 0, 0) they do by 0.1 m, more "
+            "than the tolerance of 1e-06 m; move them apart");
   EXPECT_EQ(
       refusal(shapes +
               "  - {shape: ball, position: [5, 0, 0]}\n  - {shape: ball, position: [0, 0.999998, 0]}\n"),
-      "scene.yaml:8:5: bodies 0 and 2 overlap at the start (by about 2e-06 m), more than the tolerance of "
-      "1e-06 m; move them apart");
+      "scene.yaml:8:5: bodies 0 and 2 overlap at the start: along (0, 1, 0) they do by 2e-06 m, more than "
+      "the tolerance of 1e-06 m; move them apart");
 }
 
 TEST(Overlap, UpToTheToleranceIsATouch) {
@@ -42,8 +42,9 @@ TEST(Overlap, UpToTheToleranceIsATouch) {
 }
 
 TEST(Overlap, OfABallInsideABoxIsRefused) {
-  EXPECT_EQ(refusal(shapes + "  - {shape: cube, position: [0.1, 0, 0]}\n").substr(0, 59),
-            "scene.yaml:7:5: bodies 0 and 1 overlap at the start (by abo");
+  EXPECT_EQ(refusal(shapes + "  - {shape: cube, position: [0.1, 0, 0]}\n"),
+            "scene.yaml:7:5: bodies 0 and 1 overlap at the start: along (1, 0, 0) they do by 2.4 m, more "
+            "than the tolerance of 1e-06 m; move them apart");
 }
 
 TEST(Overlap, OfANestedMeshIsRefused) {
@@ -62,8 +63,36 @@ TEST(Overlap, OfANestedMeshIsRefused) {
       "  - {shape: shell}\n"
       "  - {shape: core}\n";
   EXPECT_EQ(refusal(text),
-            "scene.yaml:7:5: bodies 0 and 1 overlap at the start (one lies inside the other), more than "
-            "the tolerance of 1e-06 m; move them apart");
+            "scene.yaml:7:5: bodies 0 and 1 overlap at the start: one lies inside the other by more "
+            "than the tolerance of 1e-06 m; move them apart");
+}
+
+TEST(Overlap, OfBoxesIsToldWithTheShortestWayApart) {
+  const std::string boxes =
+      "step: {dt: 0.01, duration: 1}\nshapes: {box: {box: {size: [1, 1, 1]}, mass: 1}}\nbodies:\n"
+      "  - {shape: box}\n";
+  EXPECT_EQ(refusal(boxes + "  - {shape: box, position: [0.2, 0.1, 0.999]}\n"),
+            "scene.yaml:5:5: bodies 0 and 1 overlap at the start: along (0, 0, 1) they do by 0.001 m, more "
+            "than the tolerance of 1e-06 m; move them apart");
+  const std::string turned = "  - {shape: box, orientation: [0.9238795325112867, 0, 0, 0.3826834323650898]";
+  EXPECT_NE(refusal(boxes + turned + ", position: [0, 0, -0.9]}\n").find("along (0, 0, -1) they do by 0.1 m"),
+            std::string::npos);
+  // A corner of the turned box, 10 mm deep in a side.
+  EXPECT_NE(refusal(boxes + turned + ", position: [1.197106781, 0, 0]}\n")
+                .find("along (1, 0, 0) they do by 0.01 m"),
+            std::string::npos);
+}
+
+TEST(Overlap, OfAMeshHasNoNumber) {
+  const auto folder = scratch("crossing");
+  independent::write_obj(independent::bumpy_sphere(12, 12, 0.2), folder / "bumpy.obj");
+  const std::string text =
+      "step: {dt: 0.01, duration: 1}\nshapes:\n  rock: {mesh: " + (folder / "bumpy.obj").string() +
+      ", density: 1}\nbodies:\n  - {shape: rock}\n"
+      "  - {shape: rock, position: [1, 0, 0]}\n";
+  EXPECT_EQ(refusal(text),
+            "scene.yaml:6:5: bodies 0 and 1 overlap at the start: their surfaces cross by more than the "
+            "tolerance of 1e-06 m; move them apart");
 }
 
 TEST(Overlap, OfStaticBodiesIsNobodysBusiness) {
@@ -163,6 +192,33 @@ TEST_F(Program, WritesWhatSensorsSee) {
   EXPECT_NEAR(sensors.at(0, "t"), 2, 1e-5);
   EXPECT_NEAR(sensors.at(0, "speed"), -1, 1e-6);
   EXPECT_EQ(read_table(folder / "gate" / "contacts.csv").rows(), 0);
+}
+
+// What a scene can bring about is told in the scene's words; what was simulated by then stays.
+TEST_F(Program, AFailureNamesTheKeyToChange) {
+  const Outcome outcome =
+      chapter(FC_SOURCE_DIR
+              "/chapters/ch04_multibody_stepping/scenes/tumbling_boxes.yaml --set solver.method=pgs "
+              "--set solver.limit=5 --out failed");
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_TRUE(one_line(outcome.err)) << outcome.err;
+  const std::string start =
+      "--set solver.limit=5: solver.method pgs stopped after solver.limit = 5 sweeps with a residual of ";
+  EXPECT_TRUE(outcome.err.starts_with(start)) << outcome.err;
+  EXPECT_TRUE(outcome.err.ends_with("; raise it, or use dantzig\n")) << outcome.err;
+  EXPECT_GT(read_table(folder / "failed" / "steps.csv").rows(), 1);
+  EXPECT_TRUE(std::filesystem::exists(folder / "failed" / "motion.html"));
+}
+
+TEST_F(Program, ARefusedRunLeavesTheResultsOfTheOneBefore) {
+  ASSERT_EQ(chapter("two.yaml --poses --out kept").exit_code, 0);
+  const std::string before = contents(folder / "kept" / "poses.csv");
+  EXPECT_EQ(chapter("two.yaml --out kept --set bodies.1.position=[0,0,0.5]").exit_code, 2);
+  EXPECT_EQ(chapter("two.yaml --out kept --sweep bodies.1.position=[0,0,3],[0,0,0.5]").exit_code, 2);
+  EXPECT_EQ(contents(folder / "kept" / "poses.csv"), before);
+  int count = 0;
+  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder / "kept")) ++count;
+  EXPECT_EQ(count, 6) << "steps, contacts, poses, motion.glb, motion.html, summary.json";
 }
 
 TEST_F(Program, Sweeps) {

@@ -230,6 +230,40 @@ TEST(Program, NothingOverlapsInChapterFoursScenes) {
   }
 }
 
+// The envelope is looked at before anything is written.
+TEST(Program, ARefusedEnvelopeLeavesTheResultsOfTheRunBefore) {
+  const auto folder = scratch("kept");
+  const std::string stack =
+      FC_BIN_DIR "/ch05_resting_contact " FC_SOURCE_DIR
+                 "/chapters/ch05_resting_contact/scenes/stack.yaml --quiet --set step.duration=0.1 "
+                 "--out " +
+      folder.string();
+  ASSERT_EQ(run(stack).exit_code, 0);
+  const std::string before = fc_test::contents(folder / "steps.csv");
+  const auto refused = run(stack + " --set envelope=1e-5");
+  EXPECT_EQ(refused.exit_code, 2) << refused.err;
+  EXPECT_EQ(fc_test::contents(folder / "steps.csv"), before);
+}
+
+// The scene's solver solves resting contacts, too: what it leaves, or that it gives up, is seen.
+TEST(Program, TheScenesSolverSolvesRestingContacts) {
+  const auto folder = scratch("solver");
+  const std::string stack =
+      FC_BIN_DIR "/ch05_resting_contact " FC_SOURCE_DIR
+                 "/chapters/ch05_resting_contact/scenes/stack.yaml --quiet --set step.duration=0.1 "
+                 "--out " +
+      folder.string();
+  ASSERT_EQ(run(stack).exit_code, 0);
+  const std::string usual = fc_test::contents(folder / "contacts.csv");
+  ASSERT_EQ(run(stack + " --set solver.method=lemke").exit_code, 0);
+  EXPECT_NE(fc_test::contents(folder / "contacts.csv"), usual);
+  const auto failed = run(stack + " --set solver.method=pgs --set solver.limit=2");
+  EXPECT_EQ(failed.exit_code, 3);
+  EXPECT_TRUE(
+      failed.err.starts_with("--set solver.limit=2: solver.method pgs stopped after solver.limit = 2 sweeps"))
+      << failed.err;
+}
+
 // A driven plate pushes two boxes against a wall, and cannot: nobody is run through, neither by the exact
 // solution nor in a crowd, and what the plate does on the way is told.
 TEST(Driven, APlateThatCannotGoOnIsStopped) {

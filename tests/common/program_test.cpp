@@ -82,7 +82,7 @@ TEST_F(Program, QuietPrintsNothing) {
 TEST_F(Program, OptionsDoNotSwallowTheScene) {
   EXPECT_EQ(run("--set step.dt=0.5 --set step.duration=2 ball.yaml --out a").exit_code, 0);
   EXPECT_EQ(summary("a")["entries"]["frames"]["value"], 4);
-  EXPECT_EQ(run("--mesh-path . ball.yaml --out b --certificate --poses").exit_code, 0);
+  EXPECT_EQ(run("--mesh-path . ball.yaml --out b --poses").exit_code, 0);
 }
 
 TEST_F(Program, BadOptionsAreOneLineAndExitCode2) {
@@ -134,6 +134,19 @@ TEST_F(Program, FailuresAreExitCode3WithTheSummaryWritten) {
     EXPECT_EQ(json["entries"]["frames"]["value"], 100) << name;
     EXPECT_TRUE(std::filesystem::exists(here_ / "out" / name / "steps.csv")) << name;
   }
+}
+
+TEST_F(Program, AFailureBeginsWithTheKeyThatItIsAbout) {
+  std::ofstream(here_ / "solver.yaml") << fc_test::one_ball << "solver:\n  limit: 5\n";
+  const std::string rest = "so many are too few; raise it\n";
+  EXPECT_EQ(run("solver.yaml --set name=keyed").err, "solver.yaml:7:3: " + rest);
+  EXPECT_EQ(run("ball.yaml --set name=keyed --set solver.limit=7").err, "--set solver.limit=7: " + rest);
+  EXPECT_EQ(run("ball.yaml --set name=keyed --set solver.method=pgs").err,
+            "--set solver.method=pgs: " + rest);
+  EXPECT_EQ(run("ball.yaml --set name=keyed").err, "ball.yaml: " + rest);
+  const Result memory = run("ball.yaml --set name=memory");
+  EXPECT_EQ(memory.exit_code, 3);
+  EXPECT_EQ(memory.err, "ball.yaml: the scene needs more memory than there is; make it smaller\n");
 }
 
 TEST_F(Program, NanAndInfinityAreNeverNull) {

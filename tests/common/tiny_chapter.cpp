@@ -1,7 +1,10 @@
 // A chapter that does nothing but end in the way that its scene's name asks for.
+#include <chrono>
 #include <limits>
+#include <thread>
 
 #include "common/program.hpp"
+#include "common/scene_failure.hpp"
 
 namespace {
 
@@ -14,7 +17,17 @@ int run(const fc::Scene& scene, const fc::RunContext& context, fc::Summary& summ
   summary.counter("lcp", 12, 3400);
   fc::TableWriter table(context.out_dir / "steps.csv", {{"step", ""}, {"t", "s"}});
   table.row({0, 0.0});
+  if (context.poses) fc::TableWriter(context.out_dir / "poses.csv", {{"t", "s"}}).row({0.0});
+  if (scene.name == "hangs") {
+    table.row({1, 0.1});
+    table.close();
+    std::this_thread::sleep_for(std::chrono::minutes(1));
+  }
   if (scene.name == "bad-input") throw fc::InputError(scene.bodies[0].where, "the ball overlaps; move it");
+  if (scene.name == "late" && scene.step->dt > 0.05)
+    throw fc::InputError(scene.bodies[0].where, "the ball is too late; move it");
+  if (scene.name == "keyed") throw fc::SceneFailure("so many are too few; raise it", "solver.limit");
+  if (scene.name == "memory") throw std::bad_alloc();
   if (scene.name == "numerical") throw fc::NumericalFailure("energy grew\nby 3 J at step 7");
   if (scene.name == "mistake") throw std::invalid_argument("radius is -1, expected > 0");
   if (scene.name == "slow" && scene.step->dt > 0.05) throw fc::NumericalFailure("dt is too long");
