@@ -121,6 +121,7 @@ void turn_contact(const NearPair& near, const Vec3& normal, ca::FeaturePair& f) 
 // along which the bodies close in slowest, if there is one that parts them: see passing_plane.hpp.
 void turn_to_passing_planes(const NearPair& near, const Vec3& origin_a,
                             std::vector<ca::FeaturePair>& features) {
+  if (!near.a.filled || !near.b.filled) return;  // the hull of a mesh says little of what its teeth touch
   for (ca::FeaturePair& f : features) {
     if (f.kind_a == ca::FeatureKind::face || f.kind_b == ca::FeatureKind::face) continue;
     const Witnesses at = near.cores(f.point_a - origin_a, f.point_b - origin_a, f.normal);
