@@ -313,12 +313,12 @@ TEST_F(LinearProgram, RefusesInOneLine) {
   };
   refused(run("fv" + row.substr(2)), "q.csv:2:1");
   refused(run("vf,nan" + row.substr(6)), "q.csv:2:4");
-  refused(run("vf,1\n"), "q.csv:2:1");
+  refused(run("vf,1\n"), "q.csv:2:4: 2 cells");
   refused(run(""), "no queries");
   refused(run(row, "bodies: [{shape: a}, {shape: a}]\nshapes: {a: {sphere: {radius: 1}}}\n"),
           "beside 'linear'");
   header = "kind,x";
-  refused(run(row), "q.csv:1:1");
+  refused(run(row), "q.csv:1:6");
 }
 
 }  // namespace
