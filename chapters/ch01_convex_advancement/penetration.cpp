@@ -11,8 +11,8 @@
 namespace fc::ca {
 namespace {
 
-// What is flat to so many eps of the shapes' sizes has no thickness, and what is beyond a face by no more is
-// not beyond it.
+// As a share of the shapes' sizes: a thickness below this counts as none, and a point that is this far outside a
+// face counts as on it.
 constexpr double kFlat = 64 * std::numeric_limits<double>::epsilon();
 
 // The Minkowski difference A - B of the cores, in A's axes, and the best direction to part them so far.
@@ -114,7 +114,7 @@ class Polytope {
   static double from_line(const Vec3& point, const Vec3& start, const Vec3& along) {
     return (point - start).cross(along).norm();
   }
-  // Of the farthest points along n and -n the one that is farther from the line.
+  // Takes the farthest points along n and along -n; returns the one that is farther from the line.
   static Vec3 farther(Difference& difference, const Vec3& start, const Vec3& n, const Vec3& along) {
     const Vec3 p = difference.farthest(n), q = difference.farthest(-n);
     return from_line(p, start, along) >= from_line(q, start, along) ? p : q;

@@ -14,9 +14,8 @@ struct Penetration {
 };
 
 struct PenetrationOptions {
-  double relative = 1e-4;  // stop when depth - lower is at most this times the depth ...
-  int most_supports =
-      500;  // ... or after so many; the depth is then an upper bound, and hardly ever a poor one
+  double relative = 1e-4;   // stop when depth - lower is at most this times the depth ...
+  int most_supports = 500;  // ... or after this number; the depth is then an upper bound
 };
 
 // Depth and direction at the given pose. Along every unit n the shapes part after h(n) = max n.a - min n.b,

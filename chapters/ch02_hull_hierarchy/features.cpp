@@ -19,7 +19,7 @@ constexpr double kConeSlack = 1e-9;
 constexpr double kSameNormal = 1e-6;  // sine of the angle between normals that say the same
 // Sine of the angle below which edges have no cross product to speak of.
 constexpr double kParallelEdges = 1e-7;
-// Of the model's reach: a vertex this far beyond a face's border lies over it.
+// As a share of the model's reach: a vertex that is this far outside a face's border still lies over the face.
 constexpr double kOnBorder = 1e-9;
 constexpr double kJoined = 1e-12;  // of the models' reach: nearer points have no direction between them
 

@@ -17,8 +17,8 @@ struct HullModel {
   }
 };
 
-// Of a mesh or a plain convex shape: throws std::invalid_argument for a cylinder, a cone or a compound, whose
-// hulls are not of points.
+// Builds the hulls of a mesh or of a convex polyhedron. Throws std::invalid_argument for a cylinder, a cone or
+// a compound: their hulls are not hulls of points.
 HullModel build_hull_model(const Model& model);
 
 }  // namespace fc::hulls

@@ -12,7 +12,7 @@ namespace fc::hulls {
 // the apex). All of it lies on the true surface.
 struct Outline {
   static constexpr int kRim =
-      8;  // of a cap: so many points of its rim, the farthest along the direction first
+      8;  // a cap is shown by this number of points on its rim, the farthest along the direction first
   std::array<Vec3, kRim> corners;  // m, shape axes; of a cap anticlockwise as seen from outside
   int count = 0;                   // kRim, 2 or 1
   Vec3 normal = Vec3::UnitZ();     // unit, outward, of the cap or of the side along its line; not of a point

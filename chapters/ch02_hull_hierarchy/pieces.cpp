@@ -11,7 +11,8 @@
 namespace fc::hulls {
 namespace {
 
-// Of the longest side; below it a plane's direction is too uncertain to extend.
+// Height over longest side of a triangle. A flatter triangle has no direction that is exact enough to be extended to a
+// plane.
 constexpr double kNeedleHeight = 1e-4;
 constexpr double kFlatThickness = 1e-9;  // of the piece's size; thinner pieces are checked as polygons
 

@@ -121,7 +121,7 @@ void turn_contact(const NearPair& near, const Vec3& normal, ca::FeaturePair& f) 
 // along which the bodies close in slowest, if there is one that parts them: see passing_plane.hpp.
 void turn_to_passing_planes(const NearPair& near, const Vec3& origin_a,
                             std::vector<ca::FeaturePair>& features) {
-  if (!near.a.filled || !near.b.filled) return;  // the hull of a mesh says little of what its teeth touch
+  if (!near.a.filled || !near.b.filled) return;  // a mesh is more than its hull
   for (ca::FeaturePair& f : features) {
     if (f.kind_a == ca::FeatureKind::face || f.kind_b == ca::FeatureKind::face) continue;
     const Witnesses at = near.cores(f.point_a - origin_a, f.point_b - origin_a, f.normal);
@@ -197,8 +197,35 @@ bool passes(const World& world, const NearPair& near, double interval, const hul
   return clear_along(near, *plane, target, interval) >= interval;
 }
 
-std::int64_t stall_pairs(const World& world, const Pair& pair) {
-  return world.convex(pair.a) && world.convex(pair.b) ? kStallPairs : kStallPairsOfMeshes;
+// A known gap (m) is measured more sharply where little of it is left: a distance is known to a sixteenth of the tolerance
+// asked for. Then a pair that slides or turns on a face is proved to pass along that face (true), where the search would creep.
+bool slides_past(const World& world, const NearPair& near, double interval, double& gap) {
+  if (gap >= kSharpShare * world.tolerance) return false;
+  const hulls::ModelDistance sharp =
+      hulls::model_distance(near.a, near.b, near.pose, kSharpShare * kStallShare * world.tolerance);
+  gap = std::max(gap, sharp.lower);
+  return sharp.nearest.a >= 0 && passes(world, near, interval, sharp.nearest);
+}
+
+// Sets what a search from a gap (m) on may spend of it. Whether that is so little that impacts pile up.
+bool aim_from(const World& world, const NearPair& near, const Pair& pair, double gap,
+              hulls::ReachOptions& options) {
+  const double smallest = -least_gap(near), spend = std::min(gap, world.keep());
+  options.target = gap > smallest ? 0.5 * spend : gap - smallest;
+  options.slack = 0.25 * (gap > smallest ? std::min(spend, world.tolerance) : smallest);
+  options.start = -1;
+  const bool little = gap <= std::max(smallest, kStallShare * world.tolerance);
+  const bool convex = world.convex(pair.a) && world.convex(pair.b);
+  if (little) options.max_pairs = std::min(world.max_pairs, convex ? kStallPairs : kStallPairsOfMeshes);
+  return little;
+}
+
+SceneFailure no_progress(const World& world, const Pair& pair) {
+  return SceneFailure(
+      fmt::format("ccd.max_iterations = {} pairs of nodes did not get the search for the next contact of "
+                  "bodies {} and {} on; raise it",
+                  world.max_pairs, pair.a, pair.b),
+      "ccd.max_iterations");
 }
 
 }  // namespace
@@ -250,26 +277,10 @@ void find_next_contact(const World& world, Pair& pair, double now, double dt, st
   }
   bool little = false;  // no gap to spend
   if (gap) {
-    // A distance is known to a sixteenth of the tolerance asked for: where little is left, ask for more
-    // digits.
-    if (*gap < kSharpShare * world.tolerance) {
-      const hulls::ModelDistance sharp =
-          hulls::model_distance(model_a, model_b, near.pose, kSharpShare * kStallShare * world.tolerance);
-      gap = std::max(*gap, sharp.lower);
-      // What slides or turns on a face is proved to pass along that face: the search would creep.
-      if (sharp.nearest.a >= 0 && passes(world, near, options.interval, sharp.nearest)) {
-        report.min_gap = std::min(report.min_gap, *gap);
-        return;
-      }
-    }
+    const bool slides = slides_past(world, near, options.interval, *gap);
     report.min_gap = std::min(report.min_gap, *gap);
-    const double smallest = -least_gap(near);
-    little = *gap <= std::max(smallest, kStallShare * world.tolerance);
-    if (little) options.max_pairs = std::min(world.max_pairs, stall_pairs(world, pair));
-    const double spend = std::min(*gap, world.keep());
-    options.target = *gap > smallest ? 0.5 * spend : *gap - smallest;
-    options.slack = 0.25 * (*gap > smallest ? std::min(spend, world.tolerance) : smallest);
-    options.start = -1;
+    if (slides) return;
+    little = aim_from(world, near, pair, *gap, options);
     search();
   }
   if (reach.status == hulls::Reach::Status::clear) return;
@@ -281,13 +292,7 @@ void find_next_contact(const World& world, Pair& pair, double now, double dt, st
   pair.stalled = limit ? little : little || !(now + reach.time > now);
   pair.contact = !limit || pair.stalled;
   pair.time = pair.stalled ? now : now + reach.time;
-  if (!pair.contact && !(pair.time > now))
-    throw SceneFailure(
-        fmt::format(
-            "ccd.max_iterations = {} pairs of nodes did not get the search for the next contact of bodies "
-            "{} and {} on; raise it",
-            world.max_pairs, pair.a, pair.b),
-        "ccd.max_iterations");
+  if (!pair.contact && !(pair.time > now)) throw no_progress(world, pair);
 }
 
 Island touching_island(const World& world, const Pair& pair, double now, StepReport& report) {
@@ -300,6 +305,11 @@ Island touching_island(const World& world, const Pair& pair, double now, StepRep
     if (std::find(island.bodies.begin(), island.bodies.end(), body) != island.bodies.end()) return;
     island.bodies.push_back(body);
     open.push_back(body);
+  };
+  // A group that is held is one body to all others, also where two of it are a hair more than the tolerance apart.
+  const auto add_group = [&](int body) {
+    for (int other = 0; other < static_cast<int>(world.bodies.size()); ++other)
+      if (world.held_together(body, other)) add_body(other);
   };
   const auto add_contacts = [&](const Pair& other) {
     if (is_sensor_pair(world, other.a, other.b)) return;
@@ -336,6 +346,7 @@ Island touching_island(const World& world, const Pair& pair, double now, StepRep
   while (!open.empty()) {
     const int body = open.back();
     open.pop_back();
+    if (world.bodies[body].group >= 0) add_group(body);
     for (const int number : world.schedule.pairs_of(body)) {
       if (std::find(seen.begin(), seen.end(), number) != seen.end()) continue;
       seen.push_back(number);

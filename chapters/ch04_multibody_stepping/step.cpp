@@ -377,7 +377,7 @@ StepReport step(World& world, double dt, const Listeners& listeners) {
     Body& b = world.bodies[body];
     if (b.held) report.lost_time = std::max(report.lost_time, dt - b.time);
     world.carry(body, dt, 0);
-    b.was_held = b.held;
+    b.was_held = b.held && b.group < 0;  // a group lives through the frame
     b.held = false;
     b.group = -1;
     b.group_velocity = Vec3::Zero();

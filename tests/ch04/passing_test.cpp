@@ -167,22 +167,50 @@ TEST(TurningPlate, UnderATouchingBoxDoesNothing) {
   }
 }
 
-// Two plates press on each other in empty space: their centre of mass goes on (shared case held_in_free_flight).
-TEST(HeldInFreeFlight, TheCentreOfMassGoesOn) {
-  auto world = make_world(R"(
+// Two plates press on each other in free flight, with nothing else near (shared case held_in_free_flight).
+const std::string pressing_plates = R"(
 step: {dt: 0.016666666666666666, duration: 0.5}
 shapes:
   plate: {box: {size: [0.8, 0.5, 0.05]}, density: 1000}
 bodies:
   - {shape: plate, position: [-0.7, 0, 0], orientation: [0.1, -0.33, 0.13, -1.99], velocity: [3, 0, 0], spin: [36.25, 23.41, 4.57]}
   - {shape: plate, position: [0.7, -0.05, 0.06], orientation: [-1.0, -1.06, 0.76, -0.25], velocity: [-1, 0, 0], spin: [-4.04, -2.54, -31.3]}
-)");
+)";
+
+TEST(HeldInFreeFlight, TheCentreOfMassGoesOn) {
+  auto world = make_world(pressing_plates);
   double lost = 0;
   for (int frame = 1; frame <= 30; ++frame) {
     lost += fc::world::step(world, 1.0 / 60).lost_time;
     EXPECT_NEAR(0.5 * (body(world, 0).position.x() + body(world, 1).position.x()), frame / 60.0, 1e-12);
   }
   EXPECT_GT(lost, 0) << "or this tests nothing";
+}
+
+// What acts on all bodies alike acts on a group that is held, too: on its way, and on the velocities that it keeps.
+TEST(HeldInFreeFlight, TheGroupFallsAndIsSlowedDown) {
+  struct Force {
+    const char *text, *name;
+    double gravity, drag;
+  };
+  for (const Force& force : {Force{"gravity: [0, 0, -9.81]\n", "gravity", 9.81, 0},
+                             Force{"drag: {linear: 0.7}\n", "drag", 0, 0.7}}) {
+    SCOPED_TRACE(force.name);
+    auto world = make_world(force.text + pressing_plates);
+    const double height = 0.5 * (body(world, 0).position.z() + body(world, 1).position.z());
+    double lost = 0;
+    for (int frame = 1; frame <= 30; ++frame) {
+      lost += fc::world::step(world, 1.0 / 60).lost_time;
+      const double t = frame / 60.0, k = force.drag, left = std::exp(-k * t);
+      const Vec3 centre = 0.5 * (body(world, 0).position + body(world, 1).position);
+      const Vec3 velocity = 0.5 * (body(world, 0).velocity + body(world, 1).velocity);
+      EXPECT_NEAR(centre.x(), k > 0 ? (1 - left) / k : t, 1e-12) << "m, at " << t << " s";
+      EXPECT_NEAR(centre.z(), height - 0.5 * force.gravity * t * t, 1e-12) << "m, at " << t << " s";
+      EXPECT_NEAR(velocity.x(), left, 1e-12) << "m/s, at " << t << " s";
+      EXPECT_NEAR(velocity.z(), -force.gravity * t, 1e-12) << "m/s, at " << t << " s";
+    }
+    EXPECT_GT(lost, 0) << "or this tests nothing";
+  }
 }
 
 }  // namespace

@@ -97,6 +97,21 @@ TEST(Thrown, InFreeSpaceKeepsMomentaAndNeverOverlaps) {
   EXPECT_GT(instants, 100);
 }
 
+// Impacts pile up, and groups of bodies are held: nothing overlaps at any frame's end, by code that shares nothing with ours.
+TEST(Thrown, WithHardlyAnyRestitutionHeldGroupsNeverOverlap) {
+  double lost = 0;
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random{std::mt19937_64(seed)};
+    auto world = make_world(head + thrown(random, flat), {seed % 2 ? "restitution=0" : "restitution=0.2"});
+    const Film seen = film(world, solids_of(world), 0.02, 40, 1, independent::How::tree);
+    EXPECT_EQ(seen.watch.overlap, "");
+    expect_laws(seen);
+    for (const auto& report : seen.reports) lost += report.lost_time;
+  }
+  EXPECT_GT(lost, 0) << "or this tests nothing";
+}
+
 TEST(Thrown, InAClosedTrayNeverLeavesIt) {
   int instants = 0;
   for (unsigned seed = 1; seed <= 6; ++seed) {
