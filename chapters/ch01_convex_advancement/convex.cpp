@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <limits>
 
+#include "ch01_convex_advancement/rounding.hpp"
+
 namespace fc::ca {
 namespace {
-
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 // From how many points on a table is worth its memory: some 5 numbers for each point.
 constexpr std::size_t kTableFrom = 12;

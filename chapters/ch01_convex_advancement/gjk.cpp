@@ -4,12 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "ch01_convex_advancement/rounding.hpp"
 #include "ch01_convex_advancement/simplex.hpp"
 
 namespace fc::ca {
 namespace {
-
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 // GJK's simplex, in A's axes: up to four points of B - A, and where each came from.
 struct Search {

@@ -15,7 +15,6 @@ namespace fc::ca {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 // The corners of B - A.
 struct Differences {

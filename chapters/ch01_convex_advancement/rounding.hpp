@@ -1,9 +1,12 @@
-// Times that add up to no more than they should.
+// How far a double may be off, and times that add up to no more than they should.
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 namespace fc::ca {
+
+inline constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 // The sum of two times >= 0, rounded down.
 inline double sum_below(double t, double step) {

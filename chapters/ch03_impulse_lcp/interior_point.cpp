@@ -10,7 +10,7 @@
 namespace fc::lcp {
 namespace {
 
-constexpr int kSteps = 100;
+constexpr int kNewtonSteps = 100;
 constexpr double kTolerance = 1e-10;
 // How much of the way to the boundary a step may take.
 constexpr double kBack = 0.995;
@@ -73,7 +73,7 @@ LcpResult solve_interior_point(const Lcp& problem, const SolveOptions& options) 
   VecX z = VecX::Constant(n, size), w = z;
 
   StepSystem system(A);
-  const int limit = options.limit > 0 ? options.limit : kSteps;
+  const int limit = options.limit > 0 ? options.limit : kNewtonSteps;
   int step = 0;
   for (; step < limit; ++step) {
     const VecX r = A * z + b - w;

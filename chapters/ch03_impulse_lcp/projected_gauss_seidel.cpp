@@ -9,8 +9,8 @@ namespace fc::lcp {
 namespace {
 
 constexpr int kSweeps = 10000;
-constexpr double kTolerance = 1e-10;
-constexpr int kLookEvery = 10;
+constexpr double kEnough = 1e-10;
+constexpr int kLookEverySweeps = 10;
 
 // A row without entries: no z changes its w. False if w then asks for a z that does not exist.
 bool settle_zero_row(const Lcp& problem, Eigen::Index i, VecX& z) {
@@ -27,7 +27,7 @@ LcpResult solve_pgs(const Lcp& problem, const SolveOptions& options) {
   const Eigen::Index n = problem.size();
   const MatX& A = problem.A;
   const int limit = options.limit > 0 ? options.limit : kSweeps;
-  const double tolerance = options.tolerance > 0 ? options.tolerance : kTolerance;
+  const double tolerance = options.tolerance > 0 ? options.tolerance : kEnough;
 
   VecX z = VecX::Zero(n);
   if (options.start != nullptr) z = *options.start;
@@ -53,7 +53,7 @@ LcpResult solve_pgs(const Lcp& problem, const SolveOptions& options) {
       const double w = problem.b[i] + rows.col(i).dot(z);
       z[i] = std::clamp(z[i] - w * inverse[i], problem.low(i), problem.high(i));
     }
-    if (sweep % kLookEvery != 0 && sweep != limit) continue;
+    if (sweep % kLookEverySweeps != 0 && sweep != limit) continue;
     result = judged(problem, z, Status::solved);
     result.pivots = sweep;
     if (result.status == Status::solved && result.residual <= tolerance) return result;

@@ -17,7 +17,6 @@ Path::Path(const std::vector<PathRow>& rows, const Shape& shape) : rows_(rows) {
   for (PathRow& row : rows_) row.position += row.orientation * shape.mass.center_of_mass;
 }
 
-// ANCHOR: path
 RigidBody Path::at(double time, double soon) const {
   const auto later = std::upper_bound(rows_.begin(), rows_.end(), time + soon,
                                       [](double t, const PathRow& row) { return t < row.time; });
@@ -37,7 +36,6 @@ RigidBody Path::at(double time, double soon) const {
       Quat(Eigen::AngleAxisd(angle.angle() * (since / between), angle.axis())) * from.orientation;
   return body;
 }
-// ANCHOR_END: path
 
 double Path::next_after(double time) const {
   const auto later = std::upper_bound(rows_.begin(), rows_.end(), time,

@@ -26,7 +26,8 @@ if(FC_BENCH)  # with -march=native Eigen would align its types more than the pee
 endif()
 if(FC_SANITIZE)
   target_compile_options(fc_settings INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all
-                                               -fno-omit-frame-pointer)
+                                               -fno-omit-frame-pointer
+                                               -Wno-maybe-uninitialized)  # GCC's manual: sanitizers give false alarms
   target_link_options(fc_settings INTERFACE -fsanitize=address,undefined)
 endif()
 
@@ -48,14 +49,16 @@ target_precompile_headers(fc_precompiled PRIVATE
   <algorithm> <array> <cmath> <filesystem> <functional> <limits> <memory> <optional> <span> <string> <vector>
   <Eigen/Core> <Eigen/Geometry> <fmt/format.h>)
 
-# fc_add_library(NAME SOURCES ... LINKS ...): a static library. Eigen and the standard library are read once for all
-# (fc_precompiled): half of the time that compiling takes.
+# fc_add_library(NAME [UNITY] SOURCES ... LINKS ...): a static library. Eigen and the standard library are read once for all
+# (fc_precompiled): half of the time that compiling takes. UNITY: eight files are compiled as one, because most of the rest
+# goes into Eigen's templates, which each file would instantiate anew; names must then differ between the files.
 function(fc_add_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINKS" ${ARGN})
+  cmake_parse_arguments(ARG "UNITY" "" "SOURCES;LINKS" ${ARGN})
   add_library(${name} STATIC ${ARG_SOURCES})
   target_include_directories(${name} PUBLIC ${CMAKE_SOURCE_DIR} ${CMAKE_SOURCE_DIR}/chapters)
   target_link_libraries(${name} PUBLIC fc_settings ${ARG_LINKS})
   target_precompile_headers(${name} REUSE_FROM fc_precompiled)
+  set_target_properties(${name} PROPERTIES UNITY_BUILD ${ARG_UNITY} UNITY_BUILD_BATCH_SIZE 8)
 endfunction()
 
 # fc_add_sources(NAME FILES ... LINKS ...): a library of files of the current folder; FILES are names without ".cpp", and
@@ -77,7 +80,7 @@ function(fc_add_stage name)
   list(FILTER sources EXCLUDE REGEX "main\\.cpp$")
   get_property(taken DIRECTORY PROPERTY FC_TAKEN)
   list(REMOVE_ITEM sources ${taken})
-  fc_add_library(${name} SOURCES ${sources} LINKS ${ARG_LINKS})
+  fc_add_library(${name} UNITY SOURCES ${sources} LINKS ${ARG_LINKS})
 endfunction()
 
 # fc_add_program(NAME SOURCE LINKS ...): an executable. The chapter's own is named as its folder.
