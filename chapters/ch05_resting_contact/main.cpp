@@ -25,36 +25,36 @@ int run(const Scene& scene, const RunContext& context, Summary& summary) {
   if (!scene.envelope)
     return world::run_scene(scene, context, summary, world::step, true);  // chapter 4's motion, to the byte
   std::unique_ptr<resting::Resting> resting;
-  std::int64_t contacts = 0, resting_contacts = 0, sweeps = 0, searched = 0, stopped = 0, checked = 0;
-  int largest = 0;
-  double energy = 0, steered = 0;
+  resting::RestReport all;
   const auto prepare = [&](world::World& world) {
     resting = std::make_unique<resting::Resting>(scene, world, scene.step->dt);
   };
   const auto step = [&](world::World& world, double, const world::Listeners& listeners) {
-    const auto report = resting->step(world, listeners);
-    contacts += report.shell_contacts;
-    resting_contacts += report.resting;
-    sweeps += report.sweeps;
-    searched += report.searched;
-    stopped += report.stopped;
-    checked += report.checked;
-    largest = std::max(largest, report.largest_island);
-    energy += report.steering_energy;
-    steered = std::max(steered, report.steered);
+    const resting::RestReport report = resting->step(world, listeners);
+    all.resting += report.resting;
+    all.plans += report.plans;
+    all.searched += report.searched;
+    all.checked += report.checked;
+    all.sweeps += report.sweeps;
+    all.shortened += report.shortened;
+    all.lost_impulse += report.lost_impulse;
+    all.correction_energy += report.correction_energy;
+    all.correction = std::max(all.correction, report.correction);
+    all.largest_island = std::max(all.largest_island, report.largest_island);
     return report.step;
   };
   const int code = world::run_scene(scene, context, summary, step, true, prepare);
   summary.add("envelope", resting->envelope(), "m");
-  summary.add("contacts in the envelope", contacts);
-  summary.add("resting contacts with an impulse", resting_contacts);
-  summary.add("largest island", std::int64_t{largest}, "rows");
-  summary.add("largest correction of a position in a frame", steered, "m");
-  summary.add("potential energy added by corrections", energy, "J");
-  summary.counter("parts of frames that stood still (bodies)", stopped, 0);
-  summary.counter("ways of pairs that were proved", checked, 0);
-  summary.counter("envelope (pairs whose contacts were searched)", searched, 0);
-  summary.counter("sweeps of Gauss-Seidel", sweeps, 0);
+  summary.add("resting contacts with an impulse", std::int64_t{all.resting});
+  summary.add("largest island", std::int64_t{all.largest_island}, "contact points");
+  summary.add("largest correction of a position in a frame", all.correction, "m");
+  summary.add("potential energy added by corrections", all.correction_energy, "J");
+  summary.add("bodies of piles that were shortened", std::int64_t{all.shortened});
+  summary.add("momentum that this took", all.lost_impulse, "N s");
+  summary.counter("plans", all.plans, 0);
+  summary.counter("paths of pairs that were proved", all.checked, 0);
+  summary.counter("envelope (pairs whose contacts were searched)", all.searched, 0);
+  summary.counter("sweeps of Gauss-Seidel", all.sweeps, 0);
   return code;
 }
 

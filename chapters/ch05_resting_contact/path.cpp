@@ -35,23 +35,39 @@ double bend_in_the_world(const Track& a, const Track& b) {
 
 }  // namespace
 
-Track track_of(const world::World& world, int body, const Pose& start, double dt) {
+Track straight_track(const RigidBody& start, const Vec3& velocity, const Vec3& spin, double reach, double dt) {
   Track track;
-  track.start = track.end = start;
-  track.reach = world.shapes[world.bodies[body].shape].reach;
-  track.moves = !world.stays(body);
-  if (!track.moves) return track;
-  const ca::Motion motion = world.motion(body, 0);
-  track.end = motion.pose_at(dt);
-  track.velocity = motion.velocity;
-  track.acceleration = motion.acceleration;
-  track.spin = motion.spin;
-  track.spin_rate = motion.spin_bound();
-  track.steady = motion.steady();
+  track.start = start.pose();
+  track.reach = reach;
+  track.velocity = velocity;
+  track.spin = spin;
+  track.spin_rate = spin.norm();
+  track.moves = !velocity.isZero(0) || track.spin_rate > 0;
+  RigidBody moving = start;
+  moving.velocity = velocity;
+  moving.spin = spin;
+  track.motion = ca::Motion(moving);
+  track.end = track.moves ? track.motion.pose_at(dt) : track.start;
   return track;
 }
 
-PathVerdict check_path(const world::World& world, const Shell& shell, ShellPair& pair, const Track& a,
+Track track_of(const world::World& world, int body, double now, double dt) {
+  Track track;
+  track.reach = world.shapes[world.bodies[body].shape].reach;
+  track.moves = !world.stays(body);
+  track.motion = world.motion(body, now);
+  track.start = track.end = {track.motion.rotation, track.motion.position};
+  if (!track.moves) return track;
+  track.end = track.motion.pose_at(dt);
+  track.velocity = track.motion.velocity;
+  track.acceleration = track.motion.acceleration;
+  track.spin = track.motion.spin;
+  track.spin_rate = track.motion.spin_bound();
+  track.steady = track.motion.steady();
+  return track;
+}
+
+PathVerdict check_path(const world::World& world, const Contacts& contacts, PairContacts& pair, const Track& a,
                        const Track& b, double dt, double need) {
   const bool steady = a.steady && b.steady;
   if (steady) {
@@ -60,20 +76,20 @@ PathVerdict check_path(const world::World& world, const Shell& shell, ShellPair&
               a.spin_rate * a.reach + b.spin_rate * b.reach);
     if (pair.gap - way >= need) return {true, dt};
   }
-  const bool convex = shell.convex(world, pair);
+  const bool convex = Contacts::convex(world, pair);
   if (convex && steady && pair.known) {
     const double share = dt * dt / 8;
     const auto from_a = [&] { return share * bend_seen_from(a, b, dt); };
     const auto from_b = [&] { return share * bend_seen_from(b, a, dt); };
-    if (!pair.axis_known) pair.axis_gap = shell.axis_gap(world, pair, a.start, b.start);
+    if (!pair.axis_known) pair.axis_gap = contacts.axis_gap(world, pair, a.start, b.start);
     pair.axis_known = true;
     if (pair.axis_gap >= need) {
-      const double end = shell.axis_gap(world, pair, a.end, b.end);
+      const double end = contacts.axis_gap(world, pair, a.end, b.end);
       if (least_between(pair.axis_gap, end, pair.of_b ? from_b() : from_a()) >= need) return {true, dt};
     }
     // The best plane at the end, carried back by either body, or by none.
     const ca::PairPose at_start(a.start, b.start), at_end(a.end, b.end);
-    const ca::GjkResult nearest = shell.nearest(world, pair, at_end);
+    const ca::GjkResult nearest = contacts.nearest(world, pair, at_end);
     if (nearest.lower >= need) {
       const ca::Convex core_a = world.model_of(pair.a).leaf(0), core_b = world.model_of(pair.b).leaf(0);
       const auto proves = [&](const Vec3& normal, double bend) {
@@ -93,8 +109,7 @@ PathVerdict check_path(const world::World& world, const Shell& shell, ShellPair&
   options.start = -1;
   options.max_pairs = world.max_pairs;
   const hulls::Reach reach =
-      hulls::first_reach(world.model_of(pair.a), world.motion(pair.a, 0), world.model_of(pair.b),
-                         world.motion(pair.b, 0), options, world.memory);
+      hulls::first_reach(world.model_of(pair.a), a.motion, world.model_of(pair.b), b.motion, options, world.memory);
   if (reach.status == hulls::Reach::Status::clear) return {true, dt};
   return {false, reach.time};
 }

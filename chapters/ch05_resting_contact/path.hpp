@@ -1,7 +1,7 @@
 // Whether two bodies keep apart on their way through a frame.
 #pragma once
 
-#include "ch05_resting_contact/shell.hpp"
+#include "ch05_resting_contact/contacts.hpp"
 
 namespace fc::resting {
 
@@ -12,9 +12,13 @@ struct Track {
   double spin_rate = 0, reach = 0;                                                 // rad/s, m
   bool moves = false;
   bool steady = true;  // constant acceleration, constant spin
+  ca::Motion motion;
 };
 
-Track track_of(const world::World& world, int body, const Pose& start, double dt);
+// A body that goes straight on from a pose, with constant spin, for dt seconds.
+Track straight_track(const RigidBody& start, const Vec3& velocity, const Vec3& spin, double reach, double dt);
+// A body of the world as it moves from `now` on (s in the frame).
+Track track_of(const world::World& world, int body, double now, double dt);
 
 struct PathVerdict {
   bool clear = false;
@@ -29,7 +33,7 @@ struct PathVerdict {
 //                     (1 - x) s_0 + x s_1 - k dt^2 x (1 - x) / 2, where k bounds how much the way of any
 //                     point is bent, as seen by that body;
 //   3. by conservative advancement (chapter 2).
-PathVerdict check_path(const world::World& world, const Shell& shell, ShellPair& pair, const Track& a,
+PathVerdict check_path(const world::World& world, const Contacts& contacts, PairContacts& pair, const Track& a,
                        const Track& b, double dt, double need);
 
 }  // namespace fc::resting

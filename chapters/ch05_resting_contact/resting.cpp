@@ -3,347 +3,322 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "ch03_impulse_lcp/unsolved.hpp"
-#include "common/stopwatch.hpp"
+#include "common/scene_failure.hpp"
 
 namespace fc::resting {
 namespace {
 
-// A contact with a gap of less than so many tolerances has no way left.
-constexpr double kNoWay = 2;
+// A body that has met others so often within one frame does not bounce any more until its end: the time between bounces
+// may shrink without end (compare the TC model, Luding and McNamara 1998).
+constexpr int kMostBounces = 64;
 
-// A body in contact whose points are slower than this part of the envelope in a frame stands still: below it
-// is round-off of impulses that cancel.
+// A plan is halved where its paths are not clear, down to this part of a frame.
+constexpr double kShortest = 1.0 / 4096;
+
+// A body in contact whose points are slower than this part of the margin in a frame stands still: below it is round-off of
+// impulses that cancel.
 constexpr double kStill = 1e-9;
 
 }  // namespace
 
 Resting::Resting(const Scene& scene, world::World& world, double dt, const RestOptions& options)
-    : shell_(world, envelope_of(scene, world)),
+    : contacts_(world, envelope_of(scene, world)),
+      islands_(contacts_, world.bodies.size()),
+      maker_(contacts_),
       options_(options),
       frame_(dt),
       dt_(dt),
-      is_far_(world.bodies.size(), 0),
-      still_(world.bodies.size(), 0),
-      place_(world.bodies.size(), -1) {
+      meetings_(world.bodies.size(), 0),
+      try_length_(world.bodies.size(), std::numeric_limits<double>::infinity()),
+      energy_(world.bodies.size(), 0),
+      still_(world.bodies.size(), 0) {
   const SolverSpec usual;
   const SolverSpec& solver = world.solver;
   if (solver.method != usual.method || solver.limit != usual.limit || solver.tolerance != usual.tolerance) {
     options_.small.chosen = solver;
-    options_.crowd = std::numeric_limits<int>::max();  // crowds are solved by sweeps of their own
+    options_.pile = std::numeric_limits<int>::max();  // piles are solved by sweeps of their own
   }
-  world.touch = shell_.envelope();
-  world.reserve = 0.5 * shell_.envelope();
+  world.reserve = 0.5 * envelope();
 }
 
 RestReport Resting::step(world::World& world, const world::Listeners& listeners) {
-  const Stopwatch watch;
-  RestReport report;
-  report.step.min_gap = report.smallest_gap = std::numeric_limits<double>::infinity();
-  const int level = std::max(0, halvings_ - 1), parts = 1 << level;  // half of what the last frame needed
-  halvings_ = level;
-  was_far_.swap(is_far_);
-  is_far_.assign(world.bodies.size(), 0);
-  for (int part = 0; part < parts; ++part) {
-    double start = frame_ / parts * part, left = frame_ / parts;
-    // Cut where a body with a path takes a new course.
-    for (double length = left; left > 0; start += length, left -= length) {
-      if (world.effects.paths) {
-        length = world::until_next_row(world, left);
-        world::follow_paths(world, length);
-      }
-      advance(world, {start, length, level}, listeners, report);
+  report_ = {};
+  contacts_.next_frame();
+  std::fill(meetings_.begin(), meetings_.end(), 0);
+  const std::int64_t searched = contacts_.searched();
+  const world::StepReport report = world::step_with(*this, world, frame_, listeners);
+  report_.step = report;
+  report_.searched = contacts_.searched() - searched;
+  fall_asleep(world);
+  return report_;
+}
+
+std::vector<int> Resting::begin(world::World& world, double dt, world::StepReport& report,
+                                const world::Listeners& listeners) {
+  dt_ = dt;
+  plans_.clear();
+  free_plans_.clear();
+  std::vector<int> bodies;
+  for (int body = 0; body < static_cast<int>(world.bodies.size()); ++body)
+    if (world.yields(body) && !world.bodies[at(body)].asleep) bodies.push_back(body);
+  return go_on(world, bodies, 0, report, listeners);
+}
+
+double Resting::next_end() const {
+  double first = std::numeric_limits<double>::infinity();
+  for (const Running& plan : plans_)
+    if (plan.runs) first = std::min(first, plan.end);
+  return first;
+}
+
+std::vector<int> Resting::end_plans(world::World& world, double now, world::StepReport& report,
+                                    const world::Listeners& listeners) {
+  std::vector<int> bodies;
+  for (const Running& plan : plans_)
+    if (plan.runs && plan.end <= now) bodies.insert(bodies.end(), plan.bodies.begin(), plan.bodies.end());
+  return go_on(world, bodies, now, report, listeners);
+}
+
+std::vector<int> Resting::meet(world::World& world, int a, int b, double now, world::StepReport& report,
+                               const world::Listeners& listeners) {
+  ++meetings_[at(a)];
+  ++meetings_[at(b)];
+  std::vector<int> bodies;
+  for (const int body : {a, b})
+    if (world.yields(body)) bodies.push_back(body);
+  return go_on(world, bodies, now, report, listeners);
+}
+
+// Ends the plan of a body, if it has one: all of its bodies stand where they are now, with the velocities that they have, and
+// are added to the list. Rows have done their part.
+void Resting::finish_plan_of(world::World& world, int body, double now, std::vector<int>& bodies,
+                             world::StepReport& report, const world::Listeners& listeners) {
+  const int number = world.bodies[at(body)].plan.number;
+  if (number < 0) return;
+  Running& plan = plans_[at(number)];
+  const double share = (now - plan.start) / (plan.end - plan.start);
+  const bool whole = now >= plan.end;
+  for (std::size_t i = 0; i < plan.bodies.size(); ++i) {
+    const int member = plan.bodies[i];
+    world.carry(member, now, now);
+    world.bodies[at(member)].plan = {};
+    if (whole) {
+      world.bodies[at(member)].state.velocity += plan.arrivals[i].linear;
+      world.bodies[at(member)].state.spin += plan.arrivals[i].angular;
     }
+    if (member != body) bodies.push_back(member);
   }
-  world.part_start = 0;
-  fall_asleep(world, report);
-  report.step.step_ns = watch.ns();
-  report.step.ccd_ns = report.step.step_ns - report.step.lcp_ns;
-  return report;
-}
-
-// ANCHOR: step
-void Resting::advance(world::World& world, const Part& part, const world::Listeners& listeners,
-                      RestReport& report) {
-  begin(world, part, report);
-  take(world);
-  for (const std::vector<int>& members : islands_of(world, shell_.contacts(), taken_))
-    solve(world, members, report);                                      // contacts that last
-  solve_crowd(world, report);                                           // those of which there are too many
-  steer(world, report);                                                 // gaps
-  const bool proved = prove(world, report) || put_back(world, report);  // the way
-  if (!proved && part.level < kMostHalvings) return halve(world, part, listeners, report);
-  if (!finish(world, part, listeners, report)) halve(world, part, listeners, report);  // chapter 4: the rest
-}
-// ANCHOR_END: step
-
-// This part of the frame is taken back, and done in two.
-void Resting::halve(world::World& world, const Part& part, const world::Listeners& listeners,
-                    RestReport& report) {
-  keep_for_halves();
-  world.bodies = saved_[at(part.level)];
-  report.step.lost_time = lost_[at(part.level)];
-  halvings_ = std::max(halvings_, part.level + 1);
-  for (const double half : {0.0, 0.5 * part.length})
-    advance(world, {part.start + half, 0.5 * part.length, part.level + 1}, listeners, report);
-}
-
-// The way is as good as it gets: chapter 4's step does everything else. False if it had to hold somebody who
-// may go on in halves: nothing is told of this part then.
-bool Resting::finish(world::World& world, const Part& part, const world::Listeners& listeners,
-                     RestReport& report) {
-  const RestReport before = report;
-  settle(world, report);
-  const world::Listeners later = world::from(part.start, listeners);
-  const auto sighted = world.sighted;
-  told_.clear();
-  world::Listeners first;  // what is told cannot be taken back: it waits
-  if (later.impact)
-    first.impact = [&](const world::ImpactRecord& impact) {
-      told_.emplace_back([&later, impact] { later.impact(impact); });
-    };
-  if (later.sighting)
-    first.sighting = [&](const world::Sighting& sighting) {
-      told_.emplace_back([&later, sighting] { later.sighting(sighting); });
-    };
-  if (later.instant)
-    first.instant = [&](const world::World& now, double time) {
-      told_.emplace_back([&later, &world, bodies = now.bodies, time]() mutable {
-        world.bodies.swap(bodies);
-        later.instant(world, time);
-        world.bodies.swap(bodies);
-      });
-    };
-  std::vector<world::Body> at_start = later.instant ? world.bodies : std::vector<world::Body>();
-  const world::StepReport rest = world::step(world, dt_, first);
-  if (rest.lost_time > 0 && part.level < kMostHalvings) {
-    report = before;
-    world.sighted = sighted;
-    return false;
+  for (const PlannedRow& row : plan.rows) {
+    if (!(share > 0) || (row.arrives && !whole)) continue;
+    ++report_.resting;
+    if (listeners.impact)
+      listeners.impact({row.arrives ? now : plan.start, row.contact,
+                        {0, 0, row.before, row.after, share * row.impulse}, world::ContactKind::rest});
   }
-  if (later.instant) world.bodies.swap(at_start);  // contacts that last are told as of the start
-  tell(world, later, report);
-  if (later.instant) world.bodies.swap(at_start);
-  for (const auto& tell_now : told_) tell_now();
-  world::add(rest, report.step);
-  return true;
+  report.kinematic_work += share * plan.work;
+  plan.runs = false;
+  free_plans_.push_back(number);
 }
 
-// Where everything stands, which contacts there are, and what gravity will have made of the velocities by the
-// frame's end. (A body that was held did not live through the last frame: it has that frame's gravity
-// already.)
-void Resting::begin(world::World& world, const Part& part, RestReport& report) {
-  const double share = part.length / dt_;  // of the impulses that were
-  dt_ = part.length;
-  world.part_start = part.start;
-  world.rest_speed = shell_.envelope() / dt_;
-  given_.clear();
-  start_.clear();
-  sweeps_.clear();
-  for (world::Body& body : world.bodies) {
-    body.supported = body.steered = body.foreseen = false;
-    given_.push_back(body.state);
-    start_.push_back(body.state);
-    if (world.effects.gravity && !body.state.is_static() && !body.was_held && !body.asleep)
-      start_.back().velocity += dt_ * world.gravity_on(body.state);
-    const bool moves = !world.stays(static_cast<int>(start_.size()) - 1);
-    sweeps_.push_back({body.state.position, 0, 0});
-    if (!moves) continue;
-    sweeps_.back().end += dt_ * start_.back().velocity;
-    sweeps_.back().turn = dt_ * body.state.spin.norm();
-    if (world.effects.gravity) sweeps_.back().sag = 0.125 * dt_ * dt_ * world.effects.gravity->norm();
-  }
-  shell_.find(world, sweeps_);
-  wake_touched(world, report);
-  saved_[at(part.level)] = world.bodies;
-  lost_[at(part.level)] = report.step.lost_time;
-  for (ShellContact& contact : shell_.contacts()) {
-    contact.bounce = std::exchange(contact.bounce_next, 0);
-    contact.impulse *= share;
-  }
-  find_crowds(world);
-  resting_.assign(world.bodies.size(), 0);
-  changed_.assign(world.bodies.size(), 1);
-  tracks_.resize(world.bodies.size());
-  for (int body = 0; body < static_cast<int>(tracks_.size()); ++body) follow(world, body);
-  taken_.clear();
-  row_.clear();
-  end_gaps_.clear();
-  contact_of_.clear();
-  reaches_.clear();
-  for (const world::Body& body : world.bodies) reaches_.push_back(world.shapes[body.shape].reach);
-  crowd_.begin(start_, reaches_);
+double Resting::energy_of(const world::World& world, int body) const {
+  const RigidBody& state = world.bodies[at(body)].state;
+  return state.kinetic_energy() -
+         (world.effects.gravity ? state.mass * world.effects.gravity->dot(state.position) : 0.0);
 }
 
-// Bodies that are near each other, over others if need be, with more rows than are solved exactly.
-void Resting::find_crowds(const world::World& world) {
-  Joined joined(world.bodies.size());
-  for (const ShellPair& pair : shell_.pairs())
-    if (world.yields(pair.a) && world.yields(pair.b)) joined.join(pair.a, pair.b);
-  std::vector<int> rows(world.bodies.size(), 0);
-  for (const ShellPair& pair : shell_.pairs())
-    rows[at(joined.root(world.yields(pair.a) ? pair.a : pair.b))] += pair.count;
-  crowded_.assign(world.bodies.size(), 0);
-  for (int body = 0; body < static_cast<int>(crowded_.size()); ++body)
-    crowded_[at(body)] = world.yields(body) && rows[at(joined.root(body))] > options_.crowd;
-}
-
-// What comes in faster than the shell allows is an impact, and chapter 4's, unless it has no way left to come
-// in. In a crowd every contact is a row. Looks at those that it has not looked at yet.
-void Resting::take(const world::World& world) {
-  const double fast = shell_.envelope() / dt_, middle = 0.5 * shell_.envelope();
-  const std::vector<ShellContact>& shell = shell_.contacts();
-  for (std::size_t i = taken_.size(); i < shell.size(); ++i) {
-    const lcp::Contact& c = shell[i].contact;
-    row_.push_back(-1);
-    taken_.push_back(0);
-    if (rests(world, c.body_a) && rests(world, c.body_b)) continue;
-    if (is_crowded(c)) {
-      add_row(static_cast<int>(i));
-    } else {
-      const double closing = -lcp::contact_velocity(given_, c);
-      taken_[i] = c.restitution == 0 || closing <= std::max(fast, (c.gap - middle) / dt_) ||
-                  c.gap < kNoWay * world.tolerance;
+// These bodies, and all whom they are in contact with: their plans end, the instant's impact law acts, and they get new plans
+// until the frame's end, or fly.
+std::vector<int> Resting::go_on(world::World& world, std::vector<int> bodies, double now,
+                                world::StepReport& report, const world::Listeners& listeners) {
+  islands_.begin(now);
+  std::vector<int> changed;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {  // the list grows
+    const int body = bodies[i];
+    if (islands_.is_in_island(body)) continue;
+    Island island = islands_.grow(world, body);
+    double before = 0;  // J
+    const double work = report.kinematic_work;
+    for (Member& member : island.members) {
+      if (!member.dynamic) continue;
+      finish_plan_of(world, member.number, now, bodies, report, listeners);
+      world.carry(member.number, now, now);
+      member.state = world.bodies[at(member.number)].state;
+      changed.push_back(member.number);
+      before += energy_[at(member.number)];
     }
+    wake(world, island, report);
+    report_.largest_island = std::max(report_.largest_island, island.points());
+    resolve(world, island, now, report, listeners);
+    double gained = work - report.kinematic_work - before;
+    for (const Member& member : island.members) {
+      if (!member.dynamic) continue;
+      world.set_course(member.number, member.state, now);
+      energy_[at(member.number)] = energy_of(world, member.number);
+      gained += energy_[at(member.number)];
+    }
+    if (now > 0) report_.correction_energy += std::max(0.0, gained);
+    if (now < dt_) plan(world, island, now, report);
+  }
+  if (now >= dt_) changed.clear();
+  return changed;
+}
+
+PlanOptions Resting::options_for(const Island& island) const {
+  PlanOptions options;
+  options.solver = options_.small;
+  options.rest_speed = envelope() / dt_;
+  if (island.points() > options_.pile) {
+    options.solver.most_dense_rows = 0;
+    options.solver.most_sweeps = 40;
+    options.solver.residual = 1e-3;
+    options.solver.accepted = std::numeric_limits<double>::infinity();
+    options.most_rounds = 1;
+    options.closed = 0.05;
+  }
+  return options;
+}
+
+void Resting::resolve(world::World& world, Island& island, double now, world::StepReport& report,
+                      const world::Listeners& listeners) {
+  if (island.pairs.empty()) return;
+  InstantOptions options;
+  options.rest_speed = envelope() / dt_;
+  options.time = now;
+  options.guess = 0.5 * dt_;
+  options.bounces = [&](int body) { return meetings_[at(body)] < kMostBounces; };
+  options.solver = options_for(island).solver;
+  InstantResult result = resolve_instant(world, island, envelope(), solver_, options);
+  if (!result.solved && stop_kinematic(world, island, now, report))
+    result = resolve_instant(world, island, envelope(), solver_, options);
+  if (!result.solved)
+    throw SceneFailure(fmt::format("{} contacts that belong together could not be solved: a residual of {:.2g} was left; "
+                                   "take less unequal masses",
+                                   result.contacts, result.residual),
+                       "envelope");
+  report.contacts += result.contacts;
+  report.lcp_rows += result.rows;
+  report.solves += result.solves;
+  report.lcp_residual = std::max(report.lcp_residual, result.residual);
+  report.kinematic_work += result.kinematic_work;
+  report.energy_gain = std::max(report.energy_gain, result.energy_gain);
+  report_.sweeps += result.sweeps;
+  for (const world::ImpactRecord& record : result.records) {
+    const bool impact = record.kind == world::ContactKind::impact;
+    ++(impact ? report.impacts : report_.resting);
+    if (listeners.impact) listeners.impact(record);
+  }
+  if (result.impact && listeners.instant) {
+    for (const Member& member : island.members)
+      if (member.dynamic) world.set_course(member.number, member.state, now);
+    listeners.instant(world, now);
   }
 }
 
-// How fast a contact may close in, m/s; negative: it must part. `before` is its velocity with gravity's part.
-double Resting::allowed(ShellContact& c) const {
-  const double middle = 0.5 * shell_.envelope(), fast = shell_.envelope() / dt_;
-  c.before = lcp::contact_velocity(start_, c.contact);
-  if (c.bounce > 0) return -c.bounce;
-  // Whether it bounces is asked without what gravity will do in this part of the frame, as in take().
-  const double closing = -lcp::contact_velocity(given_, c.contact);
-  if (is_crowded(c.contact) && c.contact.restitution > 0 && closing > fast &&
-      c.contact.gap <= shell_.envelope())
-    return -c.contact.restitution * closing;
-  return std::max(0.0, c.contact.gap - middle) / dt_;
-}
-
-// Bodies that are driven into what cannot give way stand still for this part of the frame; whether there are.
-bool Resting::stop_driven(world::World& world, Island& island, RestReport& report) {
+// Kinematic bodies of the island that are driven into what cannot give way stand still until the frame's end; whether there
+// are any.
+bool Resting::stop_kinematic(world::World& world, Island& island, double now, world::StepReport& report) {
   bool any = false;
-  for (std::size_t k = 0; k < island.bodies.size(); ++k) {
-    const int number = island.numbers[k];
-    if (!world.carries(number)) continue;
-    island.bodies[k].velocity = island.bodies[k].spin = Vec3::Zero();
-    world.bodies[number].held = any = true;
-    report.step.lost_time = std::max(report.step.lost_time, dt_);
-    follow(world, number);
+  for (Member& member : island.members) {
+    if (!world.carries(member.number)) continue;
+    world.carry(member.number, now, now);
+    world.bodies[at(member.number)].held = any = true;
+    member.state.velocity = member.state.spin = Vec3::Zero();
+    report.lost_time = std::max(report.lost_time, dt_ - now);
   }
   return any;
 }
 
-void Resting::solve(world::World& world, const std::vector<int>& members, RestReport& report) {
-  const Stopwatch watch;
-  std::vector<ShellContact>& shell = shell_.contacts();
-  Island island(start_, shell, members, place_);
-  allowed_.clear();
-  impulses_.clear();
-  for (std::size_t k = 0; k < members.size(); ++k) {
-    ShellContact& c = shell[at(members[k])];
-    allowed_.push_back(allowed(c));
-    impulses_.push_back(c.impulse);
+// A plan for the bodies of the island that are in contact, as long as their paths can be proved, at most to the frame's end.
+void Resting::plan(world::World& world, Island& island, double now, world::StepReport& report) {
+  if (island.pairs.empty()) return;
+  const PlanOptions options = options_for(island);
+  double length = dt_ - now;
+  for (const Member& member : island.members)
+    if (member.dynamic) length = std::min(length, try_length_[at(member.number)]);
+  if (length > 0.75 * (dt_ - now)) length = dt_ - now;
+  const bool pile = island.points() > options_.pile;
+  PlanMaker::Result result;
+  bool stopped = false;
+  for (;;) {
+    result = maker_.make(world, island, now, length, options);
+    report_.checked += maker_.checked();
+    report_.sweeps += maker_.sweeps();
+    report.solves += maker_.solves();
+    report.lcp_residual = std::max(report.lcp_residual, maker_.worst_residual());
+    if (result == PlanMaker::Result::proved) break;
+    if (result == PlanMaker::Result::meets && maker_.meeting() > kShortest * dt_) {
+      length = std::min(maker_.meeting(), 0.999 * length);
+      continue;
+    }
+    if (result == PlanMaker::Result::unsolved && !stopped && stop_kinematic(world, island, now, report)) {
+      stopped = true;
+      continue;
+    }
+    if (pile && result == PlanMaker::Result::unproved) break;
+    if (length < kShortest * dt_) break;
+    length *= 0.5;
   }
-  IslandResult result = solver_.solve(island.bodies, island.contacts, allowed_, impulses_, options_.small);
-  if (!result.solved && stop_driven(world, island, report))
-    result = solver_.solve(island.bodies, island.contacts, allowed_, impulses_, options_.small);
-  if (!result.solved && options_.small.chosen)
-    throw lcp::unsolved(world.solver, result.status, result.sweeps, result.residual);
-  if (!result.solved)
-    throw SceneFailure(
-        fmt::format(
-            "{} resting contacts that belong together could not be solved: a residual of {:.2g} was left "
-            "after {} sweeps, {:g} may be; shorten step.dt, or take less unequal masses",
-            members.size(), result.residual, result.sweeps, options_.small.accepted),
-        "envelope");
-  const int rows = static_cast<int>(members.size());
-  if (!options_.small.chosen) report.sweeps += result.sweeps;
-  report.largest_island = std::max(report.largest_island, rows);
-  report.step.contacts += rows;
-  report.step.lcp_rows += rows;
-  ++report.step.solves;
-  report.step.lcp_residual = std::max(report.step.lcp_residual, result.residual);
-
-  const Vec3 gravity = world.effects.gravity.value_or(Vec3(Vec3::Zero()));
-  std::vector<char> pushed(island.bodies.size()), supported(island.bodies.size());
-  for (std::size_t k = 0; k < members.size(); ++k) {
-    const lcp::Contact& contact = island.contacts[k];
-    ShellContact& c = shell[at(members[k])];
-    c.impulse = impulses_[k];
-    c.after = lcp::contact_velocity(island.bodies, contact);
-    if (!(impulses_[k] > 0)) continue;
-    pushed[at(contact.body_a)] = pushed[at(contact.body_b)] = 1;
-    if (world::bears_weight(contact.normal, gravity))
-      supported[at(contact.body_a)] = supported[at(contact.body_b)] = 1;
-  }
-  for (std::size_t k = 0; k < island.bodies.size(); ++k) {
-    RigidBody& body = island.bodies[k];
-    if (body.is_static()) continue;
-    const double reach = tracks_[at(island.numbers[k])].reach;
-    const double way = dt_ * (body.velocity.norm() + reach * body.spin.norm());
-    if (supported[k] && way < kStill * shell_.envelope()) body.velocity = body.spin = Vec3::Zero();
-    take_course(world, island.numbers[k], pushed[k], supported[k], body);
-    follow(world, island.numbers[k]);
-  }
-  report.step.lcp_ns += watch.ns();
+  if (result == PlanMaker::Result::unsolved)
+    throw SceneFailure(fmt::format("{} resting contacts that belong together could not be solved: a residual of {:.2g} was "
+                                   "left; shorten step.dt, or take less unequal masses",
+                                   island.points(), maker_.worst_residual()),
+                       "envelope");
+  if (result == PlanMaker::Result::unproved || result == PlanMaker::Result::meets) report_.lost_impulse += maker_.shorten(world, report_.shortened);
+  for (const Member& member : island.members)
+    if (member.dynamic) try_length_[at(member.number)] = 2 * length;
+  start_plan(world, island, now, length);
 }
 
-// What was pushed moves straight on; what was not falls in closed form. Pushed by walls alone it goes on
-// falling, too: gravity will add again what is in its velocity.
-void Resting::take_course(world::World& world, int number, bool pushed, bool supported, RigidBody state) {
-  world::Body& body = world.bodies[number];
-  const bool was_pushed = resting_[at(number)] == 2;
-  resting_[at(number)] = pushed ? 2 : 1;
-  if (!pushed) {
-    if (!was_pushed) return;
-    state = given_[at(number)];
-    supported = false;
-  } else if (!supported) {
-    state.velocity -= start_[at(number)].velocity - given_[at(number)].velocity;
+void Resting::start_plan(world::World& world, const Island& island, double now, double length) {
+  int number = static_cast<int>(plans_.size());
+  if (free_plans_.empty()) {
+    plans_.emplace_back();
+  } else {
+    number = free_plans_.back();
+    free_plans_.pop_back();
   }
-  if (body.asleep && state.velocity.isZero(0) && state.spin.isZero(0)) return;  // nothing wakes it
-  body.supported = supported;
-  world.set_course(number, state, 0);
+  Running& plan = plans_[at(number)];
+  plan.runs = true;
+  plan.start = now;
+  plan.end = length == dt_ - now ? dt_ : now + length;
+  plan.bodies.clear();
+  plan.arrivals.clear();
+  for (int i = 0; i < static_cast<int>(island.members.size()); ++i) {
+    if (!island.members[at(i)].dynamic || !maker_.is_planned(i)) continue;
+    world::Body& body = world.bodies[at(island.members[at(i)].number)];
+    body.plan = maker_.plan_of(i);
+    const double reach = world.shapes[at(body.shape)].reach;
+    const double path = dt_ * (body.plan.linear.norm() + reach * body.plan.angular.norm());
+    if (path < kStill * envelope()) body.plan.linear = body.plan.angular = Vec3::Zero();
+    body.plan.number = number;
+    plan.bodies.push_back(island.members[at(i)].number);
+    plan.arrivals.push_back(maker_.arrival_of(i));
+  }
+  plan.rows = maker_.rows();
+  ++report_.plans;
+  report_.correction = std::max(report_.correction, maker_.largest_correction());
+  plan.work = maker_.kinematic_work();
+  if (plan.bodies.empty()) {
+    plan.runs = false;
+    free_plans_.push_back(number);
+  }
 }
 
-// Guesses, and who is to bounce.
-void Resting::keep_for_halves() {
-  for (ShellContact& contact : shell_.contacts()) contact.bounce_next = contact.bounce;
-  for (int row = 0; row < crowd_.rows(); ++row)
-    shell_.contacts()[at(contact_of_[at(row)])].impulse = crowd_.impulse(row);
+// An island that somebody awake touches is awake.
+void Resting::wake(world::World& world, Island& island, world::StepReport& report) {
+  if (!world.effects.sleep) return;
+  for (const Member& member : island.members) {
+    world::Body& body = world.bodies[at(member.number)];
+    if (!member.dynamic || !body.asleep) continue;
+    body.asleep = false;
+    still_[at(member.number)] = 0;
+    ++report.wakes;
+  }
 }
 
-void Resting::tell(const world::World& world, const world::Listeners& listeners, RestReport& report) {
-  report.searched += shell_.searched();
-  report.shell_contacts += static_cast<int>(shell_.contacts().size());
-  report.smallest_gap = std::min(report.smallest_gap, shell_.smallest_gap());
-  report.step.min_gap = std::min(report.step.min_gap, shell_.smallest_gap());
-  report.step.max_penetration = std::max(report.step.max_penetration, -std::min(0.0, shell_.smallest_gap()));
-  report.crowded =
-      std::max(report.crowded, static_cast<int>(std::count(crowded_.begin(), crowded_.end(), 1)));
-  for (int row = 0; row < crowd_.rows(); ++row) {
-    ShellContact& c = shell_.contacts()[at(contact_of_[at(row)])];
-    c.impulse = crowd_.impulse(row);
-    c.after = crowd_.speed(row);
-  }
-  bool any = false;
-  for (std::size_t i = 0; i < taken_.size(); ++i) {
-    const ShellContact& c = shell_.contacts()[i];
-    if (!(taken_[i] || row_[i] >= 0) || !(c.impulse > 0)) continue;
-    const bool bounces = c.bounce > 0;
-    ++(bounces ? report.step.impacts : report.resting);
-    report.step.kinematic_work += lcp::kinematic_work(start_, c.contact, c.impulse);
-    any = true;
-    if (!listeners.impact) continue;
-    const auto kind = bounces ? world::ContactKind::impact : world::ContactKind::rest;
-    listeners.impact({0, c.contact, {0, 0, c.before, c.after, c.impulse}, kind});
-  }
-  if (listeners.instant && any) listeners.instant(world, 0);
-}
+void Resting::fall_asleep(world::World& world) { (void)world; }
 
 }  // namespace fc::resting

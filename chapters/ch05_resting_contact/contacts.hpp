@@ -1,0 +1,84 @@
+// The contacts of pairs of bodies: found once, kept while the two move little against each other.
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "ch04_multibody_stepping/world.hpp"
+#include "ch05_resting_contact/patch.hpp"
+
+namespace fc::resting {
+
+// One point of contact: where it is on both bodies. The plane between the two moves with one of them.
+struct ContactPoint {
+  Vec3 local_a, local_b;  // m, on the surfaces, each in its body's axes
+  Vec3 local_normal;      // unit, from A to B, in the axes of A, or of B if `of_b`
+  bool of_b = false;
+  std::uint64_t key = 0;  // see PatchPoint
+  double force = 0;       // N, mean of the last plan: a guess for the next
+
+  Vec3 normal_at(const Pose& a, const Pose& b) const { return (of_b ? b : a).rotation * local_normal; }
+  double gap_at(const Pose& a, const Pose& b) const {
+    return normal_at(a, b).dot((b.position - a.position) + (b.rotation * local_b - a.rotation * local_a));
+  }
+};
+
+// Two bodies that come near each other, and what is known of the gap between them.
+struct PairContacts {
+  int a = 0, b = 0;                  // a < b
+  std::vector<ContactPoint> points;  // none if the gap is wider than the margin
+  double gap = 0;                    // m, certified, at the poses of the last update()
+  // When it was last searched: the smaller body as seen from the larger, and the gap.
+  Pose searched;
+  double searched_gap = 0;  // m, certified
+  bool known = false;       // it was searched at all
+  // The plane that certified it, and the gap along it at the poses of the last update().
+  Vec3 axis = Vec3::UnitZ();  // unit, from A to B, in the axes of A, or of B if `of_b`
+  bool of_b = false;
+  double axis_gap = 0;  // m, certified
+  bool axis_known = false;
+  ca::SimplexCache simplex;
+  std::int64_t used = 0;  // in which frame
+
+  Vec3 axis_at(const Pose& a_now, const Pose& b_now) const { return (of_b ? b_now : a_now).rotation * axis; }
+};
+
+class Contacts {
+ public:
+  // margin: m; bodies that are nearer than this are in contact.
+  Contacts(const world::World& world, double margin);
+  double margin() const { return margin_; }
+
+  // The pair of two bodies, a != b; made if it is not known. It stays where it is.
+  PairContacts& pair(int a, int b);
+  // Forgets pairs that no frame has used for long.
+  void next_frame();
+  std::int64_t searched() const { return searched_; }  // pairs, in all
+
+  // Brings the pair's gap and points to these poses of its bodies.
+  void update(const world::World& world, PairContacts& pair, const Pose& a, const Pose& b);
+  // The points that the two have at other poses, and the gap there (m, certified). The pair keeps its own.
+  std::vector<ContactPoint> points_at(const world::World& world, PairContacts& pair, const Pose& a,
+                                      const Pose& b, double& gap);
+  // The certified gap along the pair's plane, at other poses. Convex pairs only.
+  double axis_gap(const world::World& world, const PairContacts& pair, const Pose& a, const Pose& b) const;
+  // The nearest points of the two at a pose, as GJK finds them. Convex pairs only.
+  ca::GjkResult nearest(const world::World& world, PairContacts& pair, const ca::PairPose& pose) const;
+  static bool convex(const world::World& world, const PairContacts& pair) {
+    return world.convex(pair.a) && world.convex(pair.b);
+  }
+
+ private:
+  double search(const world::World& world, PairContacts& pair, const Pose& a, const Pose& b);
+  double search_convex(const world::World& world, PairContacts& pair, const Pose& a, const Pose& b);
+  double search_mesh(const world::World& world, PairContacts& pair, const Pose& a, const Pose& b);
+  static void add(PairContacts& pair, const ContactPoint& point, const std::vector<ContactPoint>& before);
+
+  double margin_;
+  std::vector<Facets> facets_;  // of each shape
+  std::unordered_map<std::uint64_t, PairContacts> pairs_;
+  std::int64_t frame_ = 0, searched_ = 0;
+};
+
+}  // namespace fc::resting
