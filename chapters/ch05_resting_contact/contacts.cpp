@@ -35,6 +35,29 @@ Pose seen_from(const Pose& viewer, const Pose& body) {
           viewer.rotation.transpose() * (body.position - viewer.position)};
 }
 
+// A point of a convex body's surface (m, body axes), where a plane with this outward normal (unit, body axes) touches.
+SurfacePoint surface_point(const hulls::Model& model, const Vec3& point, const Vec3& normal) {
+  constexpr double kFlat = 0.1;  // the sine of the angle up to which a disk lies flat on the plane
+  constexpr double kOnRim = 1e-9;
+  SurfacePoint surface;
+  surface.local = point - model.radius * normal;
+  surface.radius = model.radius;
+  if (!model.curved()) return surface;
+  const Vec3 across = normal - normal.dot(model.axis) * model.axis;
+  if (across.norm() < kFlat) return surface;
+  for (std::size_t k = 0; k < model.disks.size(); ++k) {
+    const Vec3 arm = surface.local - model.mesh.vertices[k];
+    const bool on_rim = model.disks[k] > 0 && std::abs(arm.dot(model.axis)) < kOnRim * model.reach &&
+                        (arm - model.disks[k] * across.normalized()).norm() < 1e-3 * model.disks[k];
+    if (!on_rim) continue;
+    surface.local = model.mesh.vertices[k];
+    surface.rim = model.disks[k];
+    surface.axis = model.axis;
+    break;
+  }
+  return surface;
+}
+
 }  // namespace
 
 Contacts::Contacts(const world::World& world, double margin) : margin_(margin) {
@@ -125,10 +148,11 @@ void Contacts::add(PairContacts& pair, const ContactPoint& point, const std::vec
   pair.points.push_back(point);
   double nearest = std::numeric_limits<double>::infinity();
   for (const ContactPoint& old : before) {
-    const double distance = old.key == point.key ? -1 : (old.local_a - point.local_a).squaredNorm();
+    const double distance = old.key == point.key ? -1 : (old.a.local - point.a.local).squaredNorm();
     if (distance >= nearest) continue;
     nearest = distance;
     pair.points.back().force = old.force;
+    pair.points.back().lasts = old.lasts;
   }
 }
 
@@ -159,7 +183,17 @@ double Contacts::search_convex(const world::World& world, PairContacts& pair, co
   pair.axis = (patch.of_b ? b : a).rotation.transpose() * patch.normal;
   for (int i = 0; i < patch.count; ++i) {
     const PatchPoint& p = patch.points[static_cast<std::size_t>(i)];
-    add(pair, {p.point_a, p.point_b, pair.axis, patch.of_b, p.key}, before);
+    ContactPoint point;
+    point.a = surface_point(world.model_of(pair.a), p.point_a, a.rotation.transpose() * patch.normal);
+    point.b = surface_point(world.model_of(pair.b), p.point_b, -(b.rotation.transpose() * patch.normal));
+    // A plane that is no face of B turns with A, but not with a ball.
+    const bool ball_a = world.model_of(pair.a).mesh.vertices.size() == 1,
+               ball_b = world.model_of(pair.b).mesh.vertices.size() == 1;
+    point.balls = ball_a && ball_b;
+    point.of_b = patch.of_b || ball_a;
+    point.local_normal = (point.of_b ? b : a).rotation.transpose() * patch.normal;
+    point.key = p.key;
+    add(pair, point, before);
   }
   return std::max(result.lower, patch.gap);
 }
@@ -177,10 +211,13 @@ double Contacts::search_mesh(const world::World& world, PairContacts& pair, cons
     const bool of_b = f.kind_b == ca::FeatureKind::face;
     const auto key = static_cast<std::uint64_t>(f.kind_a) << 62 | static_cast<std::uint64_t>(f.kind_b) << 60 |
                      static_cast<std::uint64_t>(f.id_a) << 30 | static_cast<std::uint64_t>(f.id_b);
-    add(pair,
-        {a.rotation.transpose() * (f.point_a - a.position), b.rotation.transpose() * (f.point_b - b.position),
-         (of_b ? b : a).rotation.transpose() * f.normal, of_b, key},
-        before);
+    ContactPoint point;
+    point.a.local = a.rotation.transpose() * (f.point_a - a.position);
+    point.b.local = b.rotation.transpose() * (f.point_b - b.position);
+    point.local_normal = (of_b ? b : a).rotation.transpose() * f.normal;
+    point.of_b = of_b;
+    point.key = key;
+    add(pair, point, before);
   }
   return std::max(gap, of_features);
 }

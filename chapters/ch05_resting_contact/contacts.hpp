@@ -10,17 +10,44 @@
 
 namespace fc::resting {
 
-// One point of contact: where it is on both bodies. The plane between the two moves with one of them.
+// A place on a body's surface, for a plane that touches it there. On a face, edge or corner it is fixed in the body; on what is
+// round it moves with the plane: a ball's lies on its radius along the normal, that of a disk's rim where the rim is farthest.
+struct SurfacePoint {
+  Vec3 local = Vec3::Zero();  // m, body axes: the point; of a rim the disk's centre
+  double radius = 0;          // m, by which the body is rounded
+  double rim = 0;             // m, the disk's radius; 0: none
+  Vec3 axis = Vec3::UnitZ();  // unit, body axes, of the disk
+
+  // direction: unit, world, from the body outwards.
+  Vec3 at(const Pose& body, const Vec3& direction) const {
+    Vec3 point = body * local + radius * direction;
+    if (rim == 0) return point;
+    const Vec3 across = body.rotation * axis;
+    return point + rim * (direction - direction.dot(across) * across).normalized();
+  }
+};
+
+// One point of contact of two bodies. The plane between the two moves with one of them.
 struct ContactPoint {
-  Vec3 local_a, local_b;  // m, on the surfaces, each in its body's axes
-  Vec3 local_normal;      // unit, from A to B, in the axes of A, or of B if `of_b`
+  SurfacePoint a, b;
+  Vec3 local_normal = Vec3::UnitZ();  // unit, from A to B, in the axes of A, or of B if `of_b`
   bool of_b = false;
+  bool balls = false;     // two balls: the normal is along the line of their centres
   std::uint64_t key = 0;  // see PatchPoint
   double force = 0;       // N, mean of the last plan: a guess for the next
+  bool lasts = false;     // the last plan pushed here, all the time
 
-  Vec3 normal_at(const Pose& a, const Pose& b) const { return (of_b ? b : a).rotation * local_normal; }
-  double gap_at(const Pose& a, const Pose& b) const {
-    return normal_at(a, b).dot((b.position - a.position) + (b.rotation * local_b - a.rotation * local_a));
+  Vec3 normal_at(const Pose& pose_a, const Pose& pose_b) const {
+    if (balls) return (pose_b * b.local - pose_a * a.local).normalized();
+    return (of_b ? pose_b : pose_a).rotation * local_normal;
+  }
+  Vec3 on_a(const Pose& pose_a, const Pose& pose_b) const { return a.at(pose_a, normal_at(pose_a, pose_b)); }
+  Vec3 on_b(const Pose& pose_a, const Pose& pose_b) const { return b.at(pose_b, -normal_at(pose_a, pose_b)); }
+  Vec3 middle(const Pose& pose_a, const Pose& pose_b) const {
+    return 0.5 * (on_a(pose_a, pose_b) + on_b(pose_a, pose_b));
+  }
+  double gap_at(const Pose& pose_a, const Pose& pose_b) const {
+    return normal_at(pose_a, pose_b).dot(on_b(pose_a, pose_b) - on_a(pose_a, pose_b));
   }
 };
 

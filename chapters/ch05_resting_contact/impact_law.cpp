@@ -59,6 +59,7 @@ InstantResult resolve_instant(const world::World& world, Island& island, double 
   for (const Member& member : island.members) bodies.push_back(member.state);
   std::vector<lcp::Contact> contacts;
   std::vector<double> impulses, before, restitution;
+  std::vector<char> comes_in;  // fast
   for (const IslandPair& pair : island.pairs) {
     const int number_a = island.members[static_cast<std::size_t>(pair.a)].number,
               number_b = island.members[static_cast<std::size_t>(pair.b)].number;
@@ -67,24 +68,24 @@ InstantResult resolve_instant(const world::World& world, Island& island, double 
     for (const ContactPoint& point : pair.contacts->points) {
       const double gap = point.gap_at(pose_a, pose_b);
       if (gap > margin) continue;
-      const Vec3 middle = 0.5 * ((a.position + pose_a.rotation * point.local_a) +
-                                 (b.position + pose_b.rotation * point.local_b));
       const bool bounces = options.bounces(number_a) && options.bounces(number_b);
       const lcp::Contact contact{pair.a,
                                  pair.b,
-                                 middle,
+                                 point.middle(pose_a, pose_b),
                                  point.normal_at(pose_a, pose_b),
                                  gap,
                                  0,  // a compression has none
                                  world.turns(number_a),
                                  world.turns(number_b)};
       const double speed = lcp::contact_velocity(bodies, contact);
-      if (speed < -options.rest_speed && gap > kThere * margin) continue;
+      const bool fast = speed < -options.rest_speed && !point.lasts;
+      if (fast && gap > kThere * margin) continue;
       contacts.push_back(contact);
       restitution.push_back(bounces ? world.restitution_of(number_a, number_b) : 0);
       impulses.push_back(point.force * options.guess);
       before.push_back(speed);
-      if (speed < -options.rest_speed) result.impact = true;
+      comes_in.push_back(fast);
+      result.impact = result.impact || fast;
     }
   }
   if (contacts.empty()) return result;
@@ -97,6 +98,7 @@ InstantResult resolve_instant(const world::World& world, Island& island, double 
     const IslandResult solved = solver.solve(bodies, contacts, allowed, impulses, options.solver);
     result.residual = std::max(result.residual, solved.residual);
     result.sweeps += solved.sweeps;
+    result.status = solved.status;
     result.rows += static_cast<int>(contacts.size());
     ++result.solves;
     for (std::size_t i = 0; i < contacts.size() && solved.solved; ++i) total[i] += impulses[i];
@@ -129,7 +131,7 @@ InstantResult resolve_instant(const world::World& world, Island& island, double 
     record.contact.body_a = island.members[static_cast<std::size_t>(contacts[i].body_a)].number;
     record.contact.body_b = island.members[static_cast<std::size_t>(contacts[i].body_b)].number;
     record.impulse = {static_cast<int>(i), 0, before[i], lcp::contact_velocity(bodies, contacts[i]), total[i]};
-    record.kind = before[i] < -options.rest_speed ? world::ContactKind::impact : world::ContactKind::rest;
+    record.kind = comes_in[i] ? world::ContactKind::impact : world::ContactKind::rest;
     result.records.push_back(record);
   }
   result.energy_gain = kinetic(bodies) - energy - result.kinematic_work;

@@ -11,7 +11,7 @@ namespace {
 
 // Of what a gap lacks of the rest gap, so much is put right in a plan; gaps below this part of the margin at once.
 constexpr double kCorrect = 0.2, kLeastGap = 0.25;
-constexpr double kNearRest = 0.99;  // of the rest gap: nothing is put right from here on
+constexpr double kNearRest = 0.999;  // of the rest gap: nothing is put right from here on
 
 // A path is clear if its gap stays above this part of the margin, or half of what it was.
 constexpr double kFloor = 1.0 / 64;
@@ -82,9 +82,8 @@ bool PlanMaker::comes_in_fast(const world::World& world, const IslandPair& pair)
   double nearest = std::numeric_limits<double>::infinity(), fastest = 0;
   for (const ContactPoint& point : pair.contacts->points) {
     nearest = std::min(nearest, point.gap_at(pose_a, pose_b));
-    const Vec3 arm_a = pose_a.rotation * point.local_a, arm_b = pose_b.rotation * point.local_b;
-    fastest = std::min(fastest, point.normal_at(pose_a, pose_b)
-                                    .dot(b.velocity + b.spin.cross(arm_b) - a.velocity - a.spin.cross(arm_a)));
+    const Vec3 middle = point.middle(pose_a, pose_b);
+    fastest = std::min(fastest, point.normal_at(pose_a, pose_b).dot(b.velocity_at(middle) - a.velocity_at(middle)));
   }
   return fastest < -options_.rest_speed && nearest > kRoom * contacts_.margin();
 }
@@ -106,9 +105,7 @@ void PlanMaker::add_row(const world::World& world, int candidate, const ContactP
   row.point = point;
   row.arrives = arrives;
   row.gap = point.gap_at(pose_a, pose_b);
-  const Vec3 middle = 0.5 * ((a.position + pose_a.rotation * point.local_a) +
-                             (b.position + pose_b.rotation * point.local_b));
-  row.contact = {pair.a, pair.b, middle, point.normal_at(pose_a, pose_b), row.gap, 0,
+  row.contact = {pair.a, pair.b, point.middle(pose_a, pose_b), point.normal_at(pose_a, pose_b), row.gap, 0,
                  world.turns(members_[at(pair.a)].number), world.turns(members_[at(pair.b)].number)};
   const double gap = arrives ? std::min(pair.contacts->gap, rest) : row.gap;
   row.keep = std::min(gap, rest);
@@ -139,6 +136,7 @@ bool PlanMaker::solve() {
     residual_ = std::max(residual_, result.residual);
     sweeps_ += result.sweeps;
     ++solves_;
+    if (!result.solved) status_ = result.status;
     return result.solved;
   };
   if (!solved(fast_)) return false;
@@ -172,7 +170,8 @@ void PlanMaker::follow(int member) {
 // The contact's velocity (m/s) at the end of the paths, with the velocities w.
 double PlanMaker::end_speed(const Row& row, const Track& a, const Track& b) const {
   const RigidBody &fast_a = fast_[at(row.contact.body_a)], &fast_b = fast_[at(row.contact.body_b)];
-  const Vec3 arm_a = a.end.rotation * row.point.local_a, arm_b = b.end.rotation * row.point.local_b;
+  const Vec3 arm_a = row.point.on_a(a.end, b.end) - a.end.position,
+             arm_b = row.point.on_b(a.end, b.end) - b.end.position;
   return row.point.normal_at(a.end, b.end)
       .dot(fast_b.velocity + fast_b.spin.cross(arm_b) - fast_a.velocity - fast_a.spin.cross(arm_a));
 }
@@ -208,7 +207,7 @@ bool PlanMaker::is_closed() const {
 }
 
 bool PlanMaker::bounces(const world::World& world, const Candidate& pair) const {
-  return !pair.in_contact && world.restitution_of(pair.contacts->a, pair.contacts->b) > 0;
+  return !pair.in_contact && (options_.exact || world.restitution_of(pair.contacts->a, pair.contacts->b) > 0);
 }
 
 double PlanMaker::need(const world::World& world, const Candidate& pair) const {
@@ -310,12 +309,12 @@ bool PlanMaker::add_rows_of(const world::World& world, int candidate) {
     const bool known = std::any_of(rows_.begin(), rows_.end(), [&](const Row& row) {
       return row.pair == candidate && row.point.key == point.key && row.point.of_b == point.of_b &&
              (row.point.local_normal - point.local_normal).norm() < 1e-6 &&
-             (row.point.local_a - point.local_a).norm() + (row.point.local_b - point.local_b).norm() < contacts_.margin();
+             (row.point.a.local - point.a.local).norm() + (row.point.b.local - point.b.local).norm() < contacts_.margin();
     });
     if (known) continue;
     if (bounces(world, pair)) {
-      const Vec3 normal = point.normal_at(a.end, b.end), arm_a = a.end.rotation * point.local_a,
-                 arm_b = b.end.rotation * point.local_b;
+      const Vec3 normal = point.normal_at(a.end, b.end), arm_a = point.on_a(a.end, b.end) - a.end.position,
+                 arm_b = point.on_b(a.end, b.end) - b.end.position;
       const double speed = normal.dot(b.velocity + b.spin.cross(arm_b) - a.velocity - a.spin.cross(arm_a));
       if (speed < -options_.rest_speed) {
         meeting_ = std::min(meeting_, pair.time);
@@ -425,12 +424,14 @@ std::vector<PlannedRow> PlanMaker::rows() const {
     if (told.arrives) {
       const Track &a = tracks_[at(row.contact.body_a)], &b = tracks_[at(row.contact.body_b)];
       told.contact.gap = row.end_gap;
-      told.contact.point = 0.5 * ((a.end.position + a.end.rotation * row.point.local_a) +
-                                  (b.end.position + b.end.rotation * row.point.local_b));
+      told.contact.point = row.point.middle(a.end, b.end);
     }
     // For the next plan's guess.
     for (ContactPoint& point : candidates_[at(row.pair)].contacts->points)
-      if (point.key == row.point.key) point.force = row.impulse / length_;
+      if (point.key == row.point.key) {
+        point.force = row.impulse / length_;
+        point.lasts = !told.arrives;
+      }
     rows.push_back(told);
   }
   return rows;

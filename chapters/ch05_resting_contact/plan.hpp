@@ -17,6 +17,7 @@ struct PlannedRow {
 struct PlanOptions {
   IslandOptions solver;
   double rest_speed = 0;  // m/s: what comes in faster, and bounces, ends the plan when it is there
+  bool exact = true;      // and so does what does not bounce
   int most_rounds = 8;    // in which the paths' ends are looked at again
   double closed = 1e-6;   // of the margin: how exactly contacts must close at the plan's end
 };
@@ -59,6 +60,7 @@ class PlanMaker {
   // If it meets: when the first two bodies that bounce are there, s from the plan's start.
   double meeting() const { return meeting_; }
   double worst_residual() const { return residual_; }
+  lcp::Status status() const { return status_; }  // of the last solution that failed
   int solves() const { return solves_; }
   int sweeps() const { return sweeps_; }
   int checked() const { return checked_; }
@@ -122,6 +124,7 @@ class PlanMaker {
   std::vector<lcp::Contact> contact_list_;
   std::vector<double> allowed_, impulses_;
   double residual_ = 0, correction_ = 0, meeting_ = 0;
+  lcp::Status status_ = lcp::Status::limit;
   int solves_ = 0, sweeps_ = 0, checked_ = 0;
 };
 

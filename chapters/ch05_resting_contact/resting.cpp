@@ -51,6 +51,8 @@ RestReport Resting::step(world::World& world, const world::Listeners& listeners)
   const std::int64_t searched = contacts_.searched();
   const world::StepReport report = world::step_with(*this, world, frame_, listeners);
   report_.step = report;
+  report_.step.min_gap = std::min(report.min_gap, report_.smallest_gap);
+  report_.step.max_penetration = std::max(report.max_penetration, -std::min(0.0, report_.smallest_gap));
   report_.searched = contacts_.searched() - searched;
   fall_asleep(world);
   return report_;
@@ -123,6 +125,13 @@ void Resting::finish_plan_of(world::World& world, int body, double now, std::vec
   free_plans_.push_back(number);
 }
 
+// What is left of a velocity in contact that does not move the body.
+void Resting::come_to_rest(const world::World& world, Member& member) const {
+  const double reach = world.shapes[at(world.bodies[at(member.number)].shape)].reach;
+  const double speed = member.state.velocity.norm() + reach * member.state.spin.norm();
+  if (dt_ * speed < kStill * envelope()) member.state.velocity = member.state.spin = Vec3::Zero();
+}
+
 double Resting::energy_of(const world::World& world, int body) const {
   const RigidBody& state = world.bodies[at(body)].state;
   return state.kinetic_energy() -
@@ -150,11 +159,14 @@ std::vector<int> Resting::go_on(world::World& world, std::vector<int> bodies, do
       before += energy_[at(member.number)];
     }
     wake(world, island, report);
+    for (const IslandPair& pair : island.pairs)
+      report_.smallest_gap = std::min(report_.smallest_gap, pair.contacts->gap);
     report_.largest_island = std::max(report_.largest_island, island.points());
     resolve(world, island, now, report, listeners);
     double gained = work - report.kinematic_work - before;
-    for (const Member& member : island.members) {
+    for (Member& member : island.members) {
       if (!member.dynamic) continue;
+      if (!island.pairs.empty()) come_to_rest(world, member);
       world.set_course(member.number, member.state, now);
       energy_[at(member.number)] = energy_of(world, member.number);
       gained += energy_[at(member.number)];
@@ -175,6 +187,7 @@ PlanOptions Resting::options_for(const Island& island) const {
     options.solver.most_sweeps = 40;
     options.solver.residual = 1e-3;
     options.solver.accepted = std::numeric_limits<double>::infinity();
+    options.exact = false;
     options.most_rounds = 1;
     options.closed = 0.05;
   }
@@ -193,6 +206,8 @@ void Resting::resolve(world::World& world, Island& island, double now, world::St
   InstantResult result = resolve_instant(world, island, envelope(), solver_, options);
   if (!result.solved && stop_kinematic(world, island, now, report))
     result = resolve_instant(world, island, envelope(), solver_, options);
+  if (!result.solved && options_.small.chosen)
+    throw lcp::unsolved(world.solver, result.status, result.sweeps, result.residual);
   if (!result.solved)
     throw SceneFailure(fmt::format("{} contacts that belong together could not be solved: a residual of {:.2g} was left; "
                                    "take less unequal masses",
@@ -235,6 +250,8 @@ bool Resting::stop_kinematic(world::World& world, Island& island, double now, wo
 void Resting::plan(world::World& world, Island& island, double now, world::StepReport& report) {
   if (island.pairs.empty()) return;
   const PlanOptions options = options_for(island);
+  for (const IslandPair& pair : island.pairs)
+    for (ContactPoint& point : pair.contacts->points) point.lasts = false;
   double length = dt_ - now;
   for (const Member& member : island.members)
     if (member.dynamic) length = std::min(length, try_length_[at(member.number)]);
@@ -261,6 +278,8 @@ void Resting::plan(world::World& world, Island& island, double now, world::StepR
     if (length < kShortest * dt_) break;
     length *= 0.5;
   }
+  if (result == PlanMaker::Result::unsolved && options_.small.chosen)
+    throw lcp::unsolved(world.solver, maker_.status(), maker_.sweeps(), maker_.worst_residual());
   if (result == PlanMaker::Result::unsolved)
     throw SceneFailure(fmt::format("{} resting contacts that belong together could not be solved: a residual of {:.2g} was "
                                    "left; shorten step.dt, or take less unequal masses",

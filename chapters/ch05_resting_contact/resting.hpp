@@ -16,6 +16,7 @@ struct RestReport {
   int plans = 0;
   std::int64_t searched = 0;        // pairs whose contacts were searched anew
   std::int64_t checked = 0;         // paths of pairs that were to be proved
+  double smallest_gap = std::numeric_limits<double>::infinity();  // m, of bodies in contact, certified
   int largest_island = 0;           // contact points
   int sweeps = 0;                   // of Gauss-Seidel
   double correction = 0;            // m, the largest that a body's point was moved to put gaps right
@@ -67,6 +68,7 @@ class Resting : public world::Planner {
   void start_plan(world::World& world, const Island& island, double now, double length);
   bool stop_kinematic(world::World& world, Island& island, double now, world::StepReport& report);
   PlanOptions options_for(const Island& island) const;
+  void come_to_rest(const world::World& world, Member& member) const;
   double energy_of(const world::World& world, int body) const;
   void wake(world::World& world, Island& island, world::StepReport& report);
   void fall_asleep(world::World& world);

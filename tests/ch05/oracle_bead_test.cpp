@@ -68,7 +68,7 @@ TEST(Bead, InAValleyOfTwoPlanes) {
     error = 0;
     while (sim.time() < 3) {
       sim.step();
-      rise = std::max(rise, sim.energy() - energy - sim.last.steering_energy);
+      rise = std::max(rise, sim.energy() - energy - sim.last.correction_energy);
       energy = sim.energy();
       const Vec3 x = sim.body(2).position - bottom;
       const double way = x.x() >= 0 ? x.dot(Vec3(c, 0, s)) : x.dot(Vec3(c, 0, -s));
@@ -145,7 +145,7 @@ Swing swing(const std::filesystem::path& bowl, double length, double phi, double
   while (result.crossings.size() < crossings && sim.time() < 20) {
     sim.step();
     const Vec3 x = sim.body(1).position;
-    result.rise = std::max(result.rise, sim.energy() - energy - sim.last.steering_energy);
+    result.rise = std::max(result.rise, sim.energy() - energy - sim.last.correction_energy);
     energy = sim.energy();
     result.off = std::max(result.off, std::abs(Vec3(x.x(), 0, x.z()).norm() - length));
     const double at = std::atan2(x.x(), -x.z()), facet = delta * std::round(at / delta);
@@ -216,7 +216,7 @@ TEST(Bead, LandsOnASlopeThatItGoesUp) {
     double rise = 0, energy = sim.energy(), error = 0;
     while (sim.time() < 1.2) {
       sim.step();
-      rise = std::max(rise, sim.energy() - energy - sim.last.steering_energy);
+      rise = std::max(rise, sim.energy() - energy - sim.last.correction_energy);
       energy = sim.energy();
       const double t = sim.time();
       error =

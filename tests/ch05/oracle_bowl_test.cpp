@@ -26,7 +26,7 @@ TEST(Bunny, InABowl) {
     int contacts = 0;
     while (sim.time() < 1.2) {
       sim.step();
-      rise = std::max(rise, sim.energy() - energy - sim.last.steering_energy);
+      rise = std::max(rise, sim.energy() - energy - sim.last.correction_energy);
       energy = sim.energy();
       contacts += sim.last.step.impacts + sim.last.resting;
       const auto states = states_of(sim.world, 0);

@@ -132,7 +132,7 @@ TEST(Cylinders, PiledBetweenWalls) {
       sim.step({.impact = [&](const fc::world::ImpactRecord& r) {
         if (r.contact.body_a == 0) pushed += r.impulse.impulse * r.contact.normal.z();
       }});
-      rise = std::max(rise, sim.energy() - energy - sim.last.steering_energy);
+      rise = std::max(rise, sim.energy() - energy - sim.last.correction_energy);
       energy = sim.energy();
       most = std::max(most, energy - sim.steered);
       const std::string overlap = judge.look(states_of(sim.world, 0));
@@ -165,7 +165,7 @@ TEST(Cylinders, StandOnEachOther) {
     double rise = 0, energy = sim.energy();
     while (sim.time() < 3) {
       sim.step();
-      rise = std::max(rise, sim.energy() - energy - sim.last.steering_energy);
+      rise = std::max(rise, sim.energy() - energy - sim.last.correction_energy);
       energy = sim.energy();
       ASSERT_EQ(judge.look(states_of(sim.world, 0)), "") << "in frame " << sim.frame << with;
     }

@@ -40,7 +40,7 @@ struct Simulation {
     last = resting.step(world, listeners);
     ++frame;
     lost += last.step.lost_time;
-    steered += last.steering_energy;
+    steered += last.correction_energy;
     smallest_gap = std::min(smallest_gap, last.step.min_gap);
     penetration = std::max(penetration, last.step.max_penetration);
   }

@@ -37,7 +37,7 @@ struct Simulation {
     for (int frame = 0; frame < frames; ++frame) {
       last = resting.step(world, listeners);
       lost += last.step.lost_time;
-      steered += last.steering_energy;
+      steered += last.correction_energy;
       smallest_gap = std::min(smallest_gap, last.smallest_gap);
       residual = std::max(residual, last.step.lcp_residual);
     }
@@ -186,7 +186,7 @@ TEST(Sleep, WakesWhoeverIsTouched) {
         "sleep: {after: 0.2, speed: 0.01}\n" + head +
             "  - {shape: box, grid: {count: [2, 1, 3], spacing: [5, 1, 1.0001]}, position: [0, 0, 0.5001]}\n"
             "  - {shape: ball, position: [5, 0, 8]}\n",
-        1 / 60.0, {.crowd = crowd});
+        1 / 60.0, {.pile = crowd});
     s.run(0.8);
     EXPECT_EQ(s.last.step.lcp_rows, 0) << crowd;
     for (int body = 1; body <= 6; ++body) EXPECT_TRUE(s.world.bodies[body].asleep) << crowd << ": " << body;
@@ -274,7 +274,7 @@ TEST(Driven, APlateThatCannotGoOnIsStopped) {
         "  - {shape: box, kinematic: true, position: [-1.5, 0, 0], velocity: [1, 0, 0]}\n"
         "  - {shape: box, position: [0, 0, 0]}\n  - {shape: box, position: [1.2, 0, 0]}\n"
         "  - {shape: box, static: true, position: [3, 0, 0]}\n",
-        1 / 60.0, {.crowd = crowd});
+        1 / 60.0, {.pile = crowd});
     double work = 0;
     for (int frame = 0; frame < 180; ++frame) {
       s.run(1 / 60.0);
