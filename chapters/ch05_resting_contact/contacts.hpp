@@ -67,6 +67,8 @@ struct PairContacts {
   bool axis_known = false;
   ca::SimplexCache simplex;
   std::int64_t used = 0;  // in which frame
+  std::int64_t plan = 0;  // which asked for it last, and where it has it
+  int place = -1;
 
   Vec3 axis_at(const Pose& a_now, const Pose& b_now) const { return (of_b ? b_now : a_now).rotation * axis; }
 };

@@ -60,6 +60,7 @@ InstantResult resolve_instant(const world::World& world, Island& island, double 
   std::vector<lcp::Contact> contacts;
   std::vector<double> impulses, before, restitution;
   std::vector<char> comes_in;  // fast
+  std::vector<std::uint64_t> keys;
   for (const IslandPair& pair : island.pairs) {
     const int number_a = island.members[static_cast<std::size_t>(pair.a)].number,
               number_b = island.members[static_cast<std::size_t>(pair.b)].number;
@@ -85,6 +86,7 @@ InstantResult resolve_instant(const world::World& world, Island& island, double 
       impulses.push_back(point.force * options.guess);
       before.push_back(speed);
       comes_in.push_back(fast);
+      keys.push_back(point.key);
       result.impact = result.impact || fast;
     }
   }
@@ -133,6 +135,7 @@ InstantResult resolve_instant(const world::World& world, Island& island, double 
     record.impulse = {static_cast<int>(i), 0, before[i], lcp::contact_velocity(bodies, contacts[i]), total[i]};
     record.kind = comes_in[i] ? world::ContactKind::impact : world::ContactKind::rest;
     result.records.push_back(record);
+    result.keys.push_back(keys[i]);
   }
   result.energy_gain = kinetic(bodies) - energy - result.kinematic_work;
   for (std::size_t i = 0; i < bodies.size(); ++i)

@@ -43,16 +43,18 @@ class IslandFinder {
   void begin(double now);
   // The island of a body that can be moved and is in none since begin(). Bodies that are not in contact: an island of
   // one body without pairs. Sleeping bodies that it reaches belong to it.
-  Island grow(const world::World& world, int body);
-  bool is_in_island(int body) const { return stamp_[static_cast<std::size_t>(body)] == now_stamp_; }
+  // Of bodies that `crowded` names, whoever may come into contact within `left` seconds belongs to it, too, and is then
+  // crowded: one island, and no events in its midst.
+  Island grow(const world::World& world, int body, std::vector<char>& crowded, double left);
+  bool is_in_island(int body) const { return stamp_[static_cast<std::size_t>(body)] >= first_; }
 
  private:
   int place_of(const world::World& world, Island& island, int body);
 
   Contacts& contacts_;
   double now_ = 0;
-  std::int64_t now_stamp_ = 0;
-  std::vector<std::int64_t> stamp_;  // when the body was taken into an island
+  std::int64_t first_ = 1, island_ = 0;  // numbers of islands: since the last begin(), and the one at hand
+  std::vector<std::int64_t> stamp_;       // of each body: its island's
   std::vector<int> place_;           // there; of a body that cannot be moved, in the island at hand, or -1
 };
 

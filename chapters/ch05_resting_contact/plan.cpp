@@ -35,8 +35,12 @@ Vec3 mean_spin(const Mat3& from, const Mat3& to, double time) {
 }  // namespace
 
 void PlanMaker::start(const world::World& world, const Island& island, double now) {
+  ++number_;
+  for (const Member& member : members_) place_of_[at(member.number)] = -1;
+  place_of_.resize(world.bodies.size(), -1);
   members_ = island.members;
   const std::size_t count = members_.size();
+  for (std::size_t i = 0; i < count; ++i) place_of_[at(members_[i].number)] = static_cast<int>(i);
   drift_.assign(count, {});
   last_.assign(count, {});
   fast_.clear();
@@ -67,16 +71,16 @@ void PlanMaker::start(const world::World& world, const Island& island, double no
     last_[i] = {flight.velocity_at(length_) - u.linear, flight.spin_at(length_) - u.angular};
   }
   for (const IslandPair& pair : island.pairs) {
-    if (comes_in_fast(world, pair)) continue;
+    if (comes_in_fast(pair)) continue;
     const int candidate = candidate_of(pair.contacts, pair.a, pair.b);
-    candidates_[at(candidate)].in_contact = true;
+    candidates_[at(candidate)].in_contact = !pair.contacts->points.empty();
     for (const ContactPoint& point : pair.contacts->points) add_row(world, candidate, point, false);
   }
 }
 
 // Whether a pair that bounces comes in fast: it is in the margin, but there is room left.
-bool PlanMaker::comes_in_fast(const world::World& world, const IslandPair& pair) const {
-  if (world.restitution_of(pair.contacts->a, pair.contacts->b) == 0) return false;
+bool PlanMaker::comes_in_fast(const IslandPair& pair) const {
+  if (!options_.exact || pair.contacts->points.empty()) return false;
   const RigidBody &a = members_[at(pair.a)].state, &b = members_[at(pair.b)].state;
   const Pose pose_a = a.pose(), pose_b = b.pose();
   double nearest = std::numeric_limits<double>::infinity(), fastest = 0;
@@ -89,10 +93,12 @@ bool PlanMaker::comes_in_fast(const world::World& world, const IslandPair& pair)
 }
 
 int PlanMaker::candidate_of(PairContacts* contacts, int a, int b) {
-  for (std::size_t i = 0; i < candidates_.size(); ++i)
-    if (candidates_[i].contacts == contacts) return static_cast<int>(i);
-  candidates_.push_back({contacts, a, b});
-  return static_cast<int>(candidates_.size()) - 1;
+  if (contacts->plan != number_) {
+    contacts->plan = number_;
+    contacts->place = static_cast<int>(candidates_.size());
+    candidates_.push_back({contacts, a, b});
+  }
+  return contacts->place;
 }
 
 void PlanMaker::add_row(const world::World& world, int candidate, const ContactPoint& point, bool arrives) {
@@ -206,12 +212,12 @@ bool PlanMaker::is_closed() const {
   });
 }
 
-bool PlanMaker::bounces(const world::World& world, const Candidate& pair) const {
-  return !pair.in_contact && (options_.exact || world.restitution_of(pair.contacts->a, pair.contacts->b) > 0);
+bool PlanMaker::is_event(const Candidate& pair) const {
+  return !pair.in_contact && options_.exact;
 }
 
 double PlanMaker::need(const world::World& world, const Candidate& pair) const {
-  const double floor = (bounces(world, pair) ? kStop : kFloor) * contacts_.margin(), gap = pair.contacts->gap;
+  const double floor = (is_event(pair) ? kStop : kFloor) * contacts_.margin(), gap = pair.contacts->gap;
   if (gap >= 2 * floor) return floor;
   if (gap > kFloor * world.tolerance) return 0.5 * gap;
   // It started like this, touching: then it need only not become less, but for rounding.
@@ -249,20 +255,24 @@ void PlanMaker::find_candidates(const world::World& world, double now) {
     const Candidate& pair = candidates_[at(number)];
     contacts_.update(world, contacts, tracks_[at(pair.a)].start, tracks_[at(pair.b)].start);
   };
+  tree_.build(boxes);
+  std::vector<int> others;
   for (int i = 0; i < count; ++i) {
     if (!members_[at(i)].dynamic || !changed_[at(i)]) continue;
-    for (int j = 0; j < count; ++j)
-      if (j != i && (members_[at(j)].dynamic) && boxes[at(i)].overlaps(boxes[at(j)])) add(i, j);
-    std::vector<int> others;
+    others.clear();
+    tree_.overlapping(boxes[at(i)], [&](int j) {
+      if (j != i && members_[at(j)].dynamic && (j > i || !changed_[at(j)])) others.push_back(j);
+    });
+    std::sort(others.begin(), others.end());
+    for (const int j : others) add(i, j);
+    others.clear();
     world.schedule.overlapping(boxes[at(i)], [&](int other) {
       if (!world.yields(other) && !world::is_sensor_pair(world, members_[at(i)].number, other))
         others.push_back(other);
     });
     std::sort(others.begin(), others.end());
     for (const int other : others) {
-      int place = -1;
-      for (int j = 0; j < static_cast<int>(members_.size()) && place < 0; ++j)
-        if (members_[at(j)].number == other) place = j;
+      int place = place_of_[at(other)];
       if (place < 0) {
         place = static_cast<int>(members_.size());
         RigidBody state = world.state_at(other, now);
@@ -270,6 +280,7 @@ void PlanMaker::find_candidates(const world::World& world, double now) {
         state.velocity = tracks_.back().motion.velocity;
         state.spin = tracks_.back().motion.spin;
         members_.push_back({other, state, false});
+        place_of_[at(other)] = place;
         fast_.push_back(state);
         path_.push_back(state);
         drift_.emplace_back();
@@ -312,7 +323,7 @@ bool PlanMaker::add_rows_of(const world::World& world, int candidate) {
              (row.point.a.local - point.a.local).norm() + (row.point.b.local - point.b.local).norm() < contacts_.margin();
     });
     if (known) continue;
-    if (bounces(world, pair)) {
+    if (is_event(pair)) {
       const Vec3 normal = point.normal_at(a.end, b.end), arm_a = point.on_a(a.end, b.end) - a.end.position,
                  arm_b = point.on_b(a.end, b.end) - b.end.position;
       const double speed = normal.dot(b.velocity + b.spin.cross(arm_b) - a.velocity - a.spin.cross(arm_a));
@@ -342,8 +353,9 @@ PlanMaker::Result PlanMaker::make(const world::World& world, const Island& islan
   for (int round = 0; round < kMostProofs; ++round) {
     if (!close_ends()) return Result::unsolved;
     find_candidates(world, now);
+    const bool clear = prove(world);
     if (!is_closed()) break;
-    if (prove(world)) {
+    if (clear) {
       result = Result::proved;
       break;
     }
@@ -421,6 +433,7 @@ std::vector<PlannedRow> PlanMaker::rows() const {
     told.before = lcp::contact_velocity(drifting, row.contact);
     told.after = lcp::contact_velocity(fast_, row.contact);
     told.arrives = arrives(row);
+    told.key = row.point.key;
     if (told.arrives) {
       const Track &a = tracks_[at(row.contact.body_a)], &b = tracks_[at(row.contact.body_b)];
       told.contact.gap = row.end_gap;

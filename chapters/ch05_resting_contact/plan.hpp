@@ -11,13 +11,14 @@ struct PlannedRow {
   lcp::Contact contact;           // bodies by their numbers in the world
   double impulse = 0;             // N s, of the whole plan
   double before = 0, after = 0;   // m/s, the contact's velocity without and with the plan's impulses
+  std::uint64_t key = 0;          // of its point
   bool arrives = false;           // it was not in contact at the start: what it does, it does at the plan's end
 };
 
 struct PlanOptions {
   IslandOptions solver;
-  double rest_speed = 0;  // m/s: what comes in faster, and bounces, ends the plan when it is there
-  bool exact = true;      // and so does what does not bounce
+  double rest_speed = 0;  // m/s: what comes in faster ends the plan when it is there
+  bool exact = true;      // false: it arrives at the plan's end
   int most_rounds = 8;    // in which the paths' ends are looked at again
   double closed = 1e-6;   // of the margin: how exactly contacts must close at the plan's end
 };
@@ -96,12 +97,12 @@ class PlanMaker {
   bool close_ends();
   bool is_closed() const;
   double end_speed(const Row& row, const Track& a, const Track& b) const;
-  bool comes_in_fast(const world::World& world, const IslandPair& pair) const;
+  bool comes_in_fast(const IslandPair& pair) const;
   void follow(int member);
   void find_candidates(const world::World& world, double now);
   int candidate_of(PairContacts* contacts, int a, int b);
   bool prove(const world::World& world);
-  bool bounces(const world::World& world, const Candidate& pair) const;
+  bool is_event(const Candidate& pair) const;
   bool add_rows_of(const world::World& world, int candidate);
   double need(const world::World& world, const Candidate& pair) const;
   PathVerdict check(const world::World& world, Candidate& pair, const Track& a, const Track& b);
@@ -110,7 +111,10 @@ class PlanMaker {
   Contacts& contacts_;
   IslandSolver solver_;
   PlanOptions options_;
+  std::int64_t number_ = 0;  // of plans that were made
   std::vector<Member> members_;
+  std::vector<int> place_of_;  // of each body of the world among the members, or -1
+  world::BoundsTree tree_;     // of the members' boxes
   double length_ = 0;
   std::vector<Twist> drift_, last_;        // u, and what free flight adds until the end
   std::vector<Twist> arrivals_;

@@ -22,6 +22,8 @@ constexpr double kShortest = 1.0 / 4096;
 // impulses that cancel.
 constexpr double kStill = 1e-9;
 
+constexpr double kBeforeEnd = 1e-9;  // of a frame
+
 }  // namespace
 
 Resting::Resting(const Scene& scene, world::World& world, double dt, const RestOptions& options)
@@ -33,6 +35,7 @@ Resting::Resting(const Scene& scene, world::World& world, double dt, const RestO
       dt_(dt),
       meetings_(world.bodies.size(), 0),
       try_length_(world.bodies.size(), std::numeric_limits<double>::infinity()),
+      crowded_(world.bodies.size(), 0),
       energy_(world.bodies.size(), 0),
       still_(world.bodies.size(), 0) {
   const SolverSpec usual;
@@ -49,11 +52,17 @@ RestReport Resting::step(world::World& world, const world::Listeners& listeners)
   contacts_.next_frame();
   std::fill(meetings_.begin(), meetings_.end(), 0);
   const std::int64_t searched = contacts_.searched();
+  rests_.clear();
+  rest_keys_.clear();
+  rest_of_.clear();
   const world::StepReport report = world::step_with(*this, world, frame_, listeners);
   report_.step = report;
   report_.step.min_gap = std::min(report.min_gap, report_.smallest_gap);
   report_.step.max_penetration = std::max(report.max_penetration, -std::min(0.0, report_.smallest_gap));
   report_.searched = contacts_.searched() - searched;
+  report_.resting = static_cast<int>(rests_.size());
+  if (listeners.impact)
+    for (const world::ImpactRecord& record : rests_) listeners.impact(record);
   fall_asleep(world);
   return report_;
 }
@@ -66,7 +75,20 @@ std::vector<int> Resting::begin(world::World& world, double dt, world::StepRepor
   std::vector<int> bodies;
   for (int body = 0; body < static_cast<int>(world.bodies.size()); ++body)
     if (world.yields(body) && !world.bodies[at(body)].asleep) bodies.push_back(body);
+  find_crowds(world, bodies);
   return go_on(world, bodies, 0, report, listeners);
+}
+
+void Resting::find_crowds(const world::World& world, const std::vector<int>& bodies) {
+  std::fill(crowded_.begin(), crowded_.end(), 0);
+  islands_.begin(0);
+  for (const int body : bodies) {
+    if (islands_.is_in_island(body)) continue;
+    const Island island = islands_.grow(world, body, crowded_, 0);
+    if (island.points() <= options_.crowd) continue;
+    for (const Member& member : island.members)
+      if (member.dynamic) crowded_[at(member.number)] = 1;
+  }
 }
 
 double Resting::next_end() const {
@@ -97,7 +119,7 @@ std::vector<int> Resting::meet(world::World& world, int a, int b, double now, wo
 // Ends the plan of a body, if it has one: all of its bodies stand where they are now, with the velocities that they have, and
 // are added to the list. Rows have done their part.
 void Resting::finish_plan_of(world::World& world, int body, double now, std::vector<int>& bodies,
-                             world::StepReport& report, const world::Listeners& listeners) {
+                             world::StepReport& report) {
   const int number = world.bodies[at(body)].plan.number;
   if (number < 0) return;
   Running& plan = plans_[at(number)];
@@ -115,10 +137,9 @@ void Resting::finish_plan_of(world::World& world, int body, double now, std::vec
   }
   for (const PlannedRow& row : plan.rows) {
     if (!(share > 0) || (row.arrives && !whole)) continue;
-    ++report_.resting;
-    if (listeners.impact)
-      listeners.impact({row.arrives ? now : plan.start, row.contact,
-                        {0, 0, row.before, row.after, share * row.impulse}, world::ContactKind::rest});
+    report_rest({row.arrives ? told_at(now) : plan.start, row.contact,
+                 {0, 0, row.before, row.after, share * row.impulse}, world::ContactKind::rest},
+                row.key);
   }
   report.kinematic_work += share * plan.work;
   plan.runs = false;
@@ -147,12 +168,12 @@ std::vector<int> Resting::go_on(world::World& world, std::vector<int> bodies, do
   for (std::size_t i = 0; i < bodies.size(); ++i) {  // the list grows
     const int body = bodies[i];
     if (islands_.is_in_island(body)) continue;
-    Island island = islands_.grow(world, body);
+    Island island = islands_.grow(world, body, crowded_, dt_ - now);
     double before = 0;  // J
     const double work = report.kinematic_work;
     for (Member& member : island.members) {
       if (!member.dynamic) continue;
-      finish_plan_of(world, member.number, now, bodies, report, listeners);
+      finish_plan_of(world, member.number, now, bodies, report);
       world.carry(member.number, now, now);
       member.state = world.bodies[at(member.number)].state;
       changed.push_back(member.number);
@@ -182,24 +203,48 @@ PlanOptions Resting::options_for(const Island& island) const {
   PlanOptions options;
   options.solver = options_.small;
   options.rest_speed = envelope() / dt_;
+  options.exact = island.points() <= options_.crowd;
   if (island.points() > options_.pile) {
     options.solver.most_dense_rows = 0;
     options.solver.most_sweeps = 40;
     options.solver.residual = 1e-3;
     options.solver.accepted = std::numeric_limits<double>::infinity();
-    options.exact = false;
     options.most_rounds = 1;
     options.closed = 0.05;
   }
   return options;
 }
 
+// A contact that lasts is reported once in a frame, if its normal stays: what its plan does, and what the instant at the
+// plan's end does.
+void Resting::report_rest(const world::ImpactRecord& record, std::uint64_t key) {
+  constexpr double kSameNormal = 1e-14;
+  const auto low = static_cast<std::uint64_t>(record.contact.body_a), high = static_cast<std::uint64_t>(record.contact.body_b);
+  const auto [at_pair, first] = rest_of_.try_emplace(low << 32 | high, rests_.size());
+  if (!first)
+    for (std::size_t i = at_pair->second; i < rests_.size(); ++i) {
+      world::ImpactRecord& known = rests_[i];
+      if (rest_keys_[i] != key || known.contact.body_a != record.contact.body_a ||
+          known.contact.body_b != record.contact.body_b ||
+          (known.contact.normal - record.contact.normal).norm() > kSameNormal)
+        continue;
+      known.impulse.impulse += record.impulse.impulse;
+      known.impulse.v_after = record.impulse.v_after;
+      return;
+    }
+  rests_.push_back(record);
+  rest_keys_.push_back(key);
+}
+
+// What happens at the frame's end is told a little before it: it belongs to this frame, whose velocities it makes.
+double Resting::told_at(double now) const { return std::min(now, (1 - kBeforeEnd) * dt_); }
+
 void Resting::resolve(world::World& world, Island& island, double now, world::StepReport& report,
                       const world::Listeners& listeners) {
   if (island.pairs.empty()) return;
   InstantOptions options;
   options.rest_speed = envelope() / dt_;
-  options.time = now;
+  options.time = told_at(now);
   options.guess = 0.5 * dt_;
   options.bounces = [&](int body) { return meetings_[at(body)] < kMostBounces; };
   options.solver = options_for(island).solver;
@@ -220,10 +265,14 @@ void Resting::resolve(world::World& world, Island& island, double now, world::St
   report.kinematic_work += result.kinematic_work;
   report.energy_gain = std::max(report.energy_gain, result.energy_gain);
   report_.sweeps += result.sweeps;
-  for (const world::ImpactRecord& record : result.records) {
+  for (std::size_t i = 0; i < result.records.size(); ++i) {
+    const world::ImpactRecord& record = result.records[i];
     const bool impact = record.kind == world::ContactKind::impact;
-    ++(impact ? report.impacts : report_.resting);
-    if (listeners.impact) listeners.impact(record);
+    if (impact) ++report.impacts;
+    if (!impact)
+      report_rest(record, result.keys[i]);
+    else if (listeners.impact)
+      listeners.impact(record);
   }
   if (result.impact && listeners.instant) {
     for (const Member& member : island.members)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <unordered_map>
 
 #include "ch05_resting_contact/envelope.hpp"
 #include "ch05_resting_contact/impact_law.hpp"
@@ -27,7 +28,8 @@ struct RestReport {
 };
 
 struct RestOptions {
-  int pile = 400;  // contact points of one island, from which on it is a pile: solved by sweeps, its paths shortened
+  int crowd = 100;  // contact points of one island, from which on what arrives in it is no event: see IslandFinder
+  int pile = 400;   // and from which on it is a pile: solved by sweeps, its paths shortened
   IslandOptions small = {.most_dense_rows = 1000, .accepted = 1e-3};
 };
 
@@ -59,14 +61,17 @@ class Resting : public world::Planner {
   };
   static std::size_t at(int index) { return static_cast<std::size_t>(index); }
   void finish_plan_of(world::World& world, int body, double now, std::vector<int>& bodies,
-                      world::StepReport& report, const world::Listeners& listeners);
+                      world::StepReport& report);
   std::vector<int> go_on(world::World& world, std::vector<int> bodies, double now, world::StepReport& report,
                          const world::Listeners& listeners);
+  double told_at(double now) const;
+  void report_rest(const world::ImpactRecord& record, std::uint64_t key);
   void resolve(world::World& world, Island& island, double now, world::StepReport& report,
                const world::Listeners& listeners);
   void plan(world::World& world, Island& island, double now, world::StepReport& report);
   void start_plan(world::World& world, const Island& island, double now, double length);
   bool stop_kinematic(world::World& world, Island& island, double now, world::StepReport& report);
+  void find_crowds(const world::World& world, const std::vector<int>& bodies);
   PlanOptions options_for(const Island& island) const;
   void come_to_rest(const world::World& world, Member& member) const;
   double energy_of(const world::World& world, int body) const;
@@ -83,9 +88,13 @@ class Resting : public world::Planner {
   std::vector<int> free_plans_;
   std::vector<int> meetings_;      // of each body, in this frame
   std::vector<double> try_length_;  // s, of each body's next plan at most
+  std::vector<char> crowded_;      // of each body, in this frame
   std::vector<double> energy_;     // J, of each body when it got its course, in this frame
   std::vector<double> still_;      // s, for how long it has been carried, and slow
   RestReport report_;
+  std::vector<world::ImpactRecord> rests_;  // of contacts that last, in this frame
+  std::vector<std::uint64_t> rest_keys_;    // their points' keys
+  std::unordered_map<std::uint64_t, std::size_t> rest_of_;  // the first of them of two bodies
 };
 
 }  // namespace fc::resting
