@@ -277,6 +277,13 @@ void find_patch(const PatchSide& a, const PatchSide& b, const ca::PairPose& pose
   if (has_witnesses && (patch.count == 0 || least > nearest.lower + slack))
     add(nearest.point_a - a.model.radius * nearest.normal, nearest.point_b + b.model.radius * nearest.normal,
         std::max(patch.gap, nearest.lower), 3);
+  if (patch.count > 0) return;
+  // They touch, to rounding, and have no nearest points: those farthest along the normal, brought over each other.
+  const Vec3 far_a = pose.rotation_a * ca::support(core_a, to_a * patch.normal).point;
+  const Vec3 far_b = pose.rotation_b * ca::support(core_b, -(to_b * patch.normal)).point + pose.offset_world;
+  const Vec3 between = 0.5 * (far_a + far_b);
+  add(between + patch.normal.dot(far_a - between) * patch.normal,
+      between + patch.normal.dot(far_b - between) * patch.normal, patch.gap, 4);
 }
 
 }  // namespace fc::resting

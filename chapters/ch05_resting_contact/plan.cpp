@@ -158,7 +158,10 @@ bool PlanMaker::solve() {
       short_of = true;
   }
   if (!short_of) std::fill(impulses_.begin(), impulses_.end(), 0.0);
-  if (short_of && !solved(path_)) return false;
+  if (short_of && !solved(path_)) {  // there is no room for all of it: gaps stay as they are
+    path_ = fast_;
+    std::fill(impulses_.begin(), impulses_.end(), 0.0);
+  }
   for (std::size_t r = 0; r < rows_.size(); ++r) rows_[r].correction = impulses_[r];
   return true;
 }

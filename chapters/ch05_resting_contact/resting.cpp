@@ -204,6 +204,10 @@ PlanOptions Resting::options_for(const Island& island) const {
   options.solver = options_.small;
   options.rest_speed = envelope() / dt_;
   options.exact = island.points() <= options_.crowd;
+  if (!options.exact) {
+    options.most_rounds = 3;
+    options.closed = 0.01;
+  }
   if (island.points() > options_.pile) {
     options.solver.most_dense_rows = 0;
     options.solver.most_sweeps = 40;
@@ -305,7 +309,7 @@ void Resting::plan(world::World& world, Island& island, double now, world::StepR
   for (const Member& member : island.members)
     if (member.dynamic) length = std::min(length, try_length_[at(member.number)]);
   if (length > 0.75 * (dt_ - now)) length = dt_ - now;
-  const bool pile = island.points() > options_.pile;
+  const bool pile = island.points() > options_.crowd;
   PlanMaker::Result result;
   bool stopped = false;
   for (;;) {
