@@ -68,7 +68,7 @@ Track track_of(const world::World& world, int body, double now, double dt) {
 }
 
 PathVerdict check_path(const world::World& world, const Contacts& contacts, PairContacts& pair, const Track& a,
-                       const Track& b, double dt, double need) {
+                       const Track& b, double dt, double need, std::int64_t most_pairs) {
   const bool steady = a.steady && b.steady;
   if (steady) {
     const double way =
@@ -107,7 +107,7 @@ PathVerdict check_path(const world::World& world, const Contacts& contacts, Pair
   options.target = need;
   options.slack = 0.25 * std::max(need, world.tolerance);
   options.start = -1;
-  options.max_pairs = world.max_pairs;
+  options.max_pairs = std::min(world.max_pairs, most_pairs);
   const hulls::Reach reach =
       hulls::first_reach(world.model_of(pair.a), a.motion, world.model_of(pair.b), b.motion, options, world.memory);
   if (reach.status == hulls::Reach::Status::clear) return {true, dt};

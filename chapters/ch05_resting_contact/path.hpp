@@ -32,8 +32,9 @@ struct PathVerdict {
 //                     at the ends of the frame, then at the part x of it the gap is at least
 //                     (1 - x) s_0 + x s_1 - k dt^2 x (1 - x) / 2, where k bounds how much the way of any
 //                     point is bent, as seen by that body;
-//   3. by conservative advancement (chapter 2).
+//   3. by conservative advancement (chapter 2), with at most `most_pairs` pairs of nodes, and not beyond the scene's limit.
 PathVerdict check_path(const world::World& world, const Contacts& contacts, PairContacts& pair, const Track& a,
-                       const Track& b, double dt, double need);
+                       const Track& b, double dt, double need,
+                       std::int64_t most_pairs = std::numeric_limits<std::int64_t>::max());
 
 }  // namespace fc::resting

@@ -22,6 +22,11 @@ constexpr double kStop = 0.25;
 // Of the margin: a pair that bounces and comes in fast is no contact yet above this gap.
 constexpr double kRoom = 0.55;
 
+// A pair that turns in contact is proved sooner by a shorter plan than by ever smaller steps: so many pairs of nodes are
+// looked at, of two convex bodies and of meshes.
+constexpr std::int64_t kMostPairs = 1000, kMostPairsOfMeshes = 50'000,
+                       kNoMost = std::numeric_limits<std::int64_t>::max();
+
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 constexpr int kMostProofs = 4;  // rounds in which unproved pairs become rows
@@ -232,7 +237,8 @@ double PlanMaker::need(const world::World& world, const Candidate& pair) const {
 PathVerdict PlanMaker::check(const world::World& world, Candidate& pair, const Track& a, const Track& b) {
   ++checked_;
   const bool in_order = pair.contacts->a == members_[at(pair.a)].number;
-  return check_path(world, contacts_, *pair.contacts, in_order ? a : b, in_order ? b : a, length_, need(world, pair));
+  return check_path(world, contacts_, *pair.contacts, in_order ? a : b, in_order ? b : a, length_, need(world, pair),
+                    is_event(pair) ? kNoMost : Contacts::convex(world, *pair.contacts) ? kMostPairs : kMostPairsOfMeshes);
 }
 
 // All pairs of members, and of members with what cannot be moved, that may come near each other on their paths.
@@ -468,6 +474,7 @@ double PlanMaker::shorten(const world::World& world, int& count) {
     return straight_track(m.state, share * path_[at(member)].velocity, share * path_[at(member)].spin,
                           tracks_[at(member)].reach, length_);
   };
+  blocked_.clear();
   std::vector<char> waiting(candidates_.size(), 1);
   for (std::size_t i = 0; i < candidates_.size(); ++i) waiting[i] = !candidates_[i].clear;
   constexpr double kOfFree = 0.9, kLeastShare = 1e-3;
@@ -488,7 +495,12 @@ double PlanMaker::shorten(const world::World& world, int& count) {
         double share = std::min(dynamic_a ? share_a : 1.0, dynamic_b ? share_b : 1.0);
         if ((!dynamic_a || share_a == share) && (!dynamic_b || share_b == share)) share *= part;
         if (share < kLeastShare) share = 0;
-        if ((!dynamic_a || share_a == share) && (!dynamic_b || share_b == share)) break;  // a kinematic body comes
+        if ((!dynamic_a || share_a == share) && (!dynamic_b || share_b == share)) {  // a kinematic body comes
+          for (const int member : {pair.a, pair.b})
+            if (!members_[at(member)].dynamic && tracks_[at(member)].moves)
+              blocked_.push_back(members_[at(member)].number);
+          break;
+        }
         if (dynamic_a) share_a = std::min(share_a, share);
         if (dynamic_b) share_b = std::min(share_b, share);
       }

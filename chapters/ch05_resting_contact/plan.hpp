@@ -57,6 +57,8 @@ class PlanMaker {
   // Lets the members go only a share of their paths, and keep as much of their velocities, so that all pairs are clear.
   // Returns the momentum that this takes, kg m/s; `count`: the bodies that are shortened.
   double shorten(const world::World& world, int& count);
+  // Kinematic bodies (by their numbers in the world) that the last shorten() found to go into what stands.
+  const std::vector<int>& blocked() const { return blocked_; }
 
   // If it meets: when the first two bodies that bounce are there, s from the plan's start.
   double meeting() const { return meeting_; }
@@ -125,6 +127,7 @@ class PlanMaker {
   std::vector<Row> rows_;
   std::vector<Candidate> candidates_;
   std::vector<Unproved> unproved_;
+  std::vector<int> blocked_;
   std::vector<lcp::Contact> contact_list_;
   std::vector<double> allowed_, impulses_;
   double residual_ = 0, correction_ = 0, meeting_ = 0;

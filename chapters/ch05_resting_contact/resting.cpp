@@ -63,7 +63,6 @@ RestReport Resting::step(world::World& world, const world::Listeners& listeners)
   report_.resting = static_cast<int>(rests_.size());
   if (listeners.impact)
     for (const world::ImpactRecord& record : rests_) listeners.impact(record);
-  fall_asleep(world);
   return report_;
 }
 
@@ -194,6 +193,7 @@ std::vector<int> Resting::go_on(world::World& world, std::vector<int> bodies, do
     }
     if (now > 0) report_.correction_energy += std::max(0.0, gained);
     if (now < dt_) plan(world, island, now, report);
+    if (now >= dt_ && world.effects.sleep) fall_asleep(world, island, report);
   }
   if (now >= dt_) changed.clear();
   return changed;
@@ -291,12 +291,17 @@ bool Resting::stop_kinematic(world::World& world, Island& island, double now, wo
   bool any = false;
   for (Member& member : island.members) {
     if (!world.carries(member.number)) continue;
-    world.carry(member.number, now, now);
-    world.bodies[at(member.number)].held = any = true;
+    stop(world, member.number, now, report);
     member.state.velocity = member.state.spin = Vec3::Zero();
-    report.lost_time = std::max(report.lost_time, dt_ - now);
+    any = true;
   }
   return any;
+}
+
+void Resting::stop(world::World& world, int kinematic, double now, world::StepReport& report) {
+  world.carry(kinematic, now, now);
+  world.bodies[at(kinematic)].held = true;
+  report.lost_time = std::max(report.lost_time, dt_ - now);
 }
 
 // A plan for the bodies of the island that are in contact, as long as their paths can be proved, at most to the frame's end.
@@ -338,7 +343,24 @@ void Resting::plan(world::World& world, Island& island, double now, world::StepR
                                    "left; shorten step.dt, or take less unequal masses",
                                    island.points(), maker_.worst_residual()),
                        "envelope");
-  if (result == PlanMaker::Result::unproved || result == PlanMaker::Result::meets) report_.lost_impulse += maker_.shorten(world, report_.shortened);
+  if (result == PlanMaker::Result::unproved || result == PlanMaker::Result::meets) {
+    int shortened = 0;
+    double lost = maker_.shorten(world, shortened);
+    const std::vector<int> blocked = maker_.blocked();
+    if (!blocked.empty()) {  // they stand still until the frame's end
+      for (const int body : blocked) {
+        stop(world, body, now, report);
+        for (Member& member : island.members)
+          if (member.number == body) member.state.velocity = member.state.spin = Vec3::Zero();
+      }
+      shortened = 0;
+      lost = 0;
+      if (maker_.make(world, island, now, length, options) != PlanMaker::Result::proved)
+        lost = maker_.shorten(world, shortened);
+    }
+    report_.shortened += shortened;
+    report_.lost_impulse += lost;
+  }
   for (const Member& member : island.members)
     if (member.dynamic) try_length_[at(member.number)] = 2 * length;
   start_plan(world, island, now, length);
@@ -391,6 +413,33 @@ void Resting::wake(world::World& world, Island& island, world::StepReport& repor
   }
 }
 
-void Resting::fall_asleep(world::World& world) { (void)world; }
+// At a frame's end: an island that lies on what does not move, and whose bodies have all been slow for long enough.
+void Resting::fall_asleep(world::World& world, const Island& island, world::StepReport& report) {
+  const SleepSpec& sleep = *world.effects.sleep;
+  bool lies = false, rests = true;
+  for (const Member& member : island.members) {
+    const world::Body& body = world.bodies[at(member.number)];
+    if (!member.dynamic) {
+      lies = true;
+      rests = rests && !world.carries(member.number);
+      continue;
+    }
+    const double speed =
+        body.state.velocity.norm() + world.shapes[at(body.shape)].reach * body.state.spin.norm();
+    double& still = still_[at(member.number)];
+    still = speed <= sleep.speed ? still + dt_ : 0;
+    rests = rests && still >= sleep.after;
+  }
+  if (!lies || !rests) return;
+  for (const Member& member : island.members) {
+    if (!member.dynamic) continue;
+    world::Body& body = world.bodies[at(member.number)];
+    report.slept_energy += body.state.kinetic_energy();
+    ++report.falls_asleep;
+    body.state.velocity = body.state.spin = Vec3::Zero();
+    body.free.reset();
+    body.asleep = true;
+  }
+}
 
 }  // namespace fc::resting

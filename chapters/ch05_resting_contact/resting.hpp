@@ -71,12 +71,13 @@ class Resting : public world::Planner {
   void plan(world::World& world, Island& island, double now, world::StepReport& report);
   void start_plan(world::World& world, const Island& island, double now, double length);
   bool stop_kinematic(world::World& world, Island& island, double now, world::StepReport& report);
+  void stop(world::World& world, int kinematic, double now, world::StepReport& report);
   void find_crowds(const world::World& world, const std::vector<int>& bodies);
   PlanOptions options_for(const Island& island) const;
   void come_to_rest(const world::World& world, Member& member) const;
   double energy_of(const world::World& world, int body) const;
   void wake(world::World& world, Island& island, world::StepReport& report);
-  void fall_asleep(world::World& world);
+  void fall_asleep(world::World& world, const Island& island, world::StepReport& report);
 
   Contacts contacts_;
   IslandFinder islands_;
