@@ -1,6 +1,6 @@
-// Free bodies of all shapes thrown together, in thousands of scenes: what nothing from outside acts on keeps its momenta and
-// goes where they say, whatever the bodies do to each other. FC_SCENES=1000 runs so many scenes, FC_FIRST=n begins with seed n;
-// CI runs a share.
+// Free bodies of all shapes, thrown together in random scenes. Nothing acts on them from outside: their total momenta stay, and
+// their common centre of mass moves at a constant velocity, whatever the bodies do to each other. FC_SCENES=1000 runs a
+// thousand scenes, FC_FIRST=n begins with seed n; CI runs the first of them.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
