@@ -16,9 +16,9 @@
 namespace fc {
 namespace {
 
-// A cell as JSON. JSON has no NaN and no infinity (nlohmann-json would write null): those become text.
 using Json = nlohmann::ordered_json;
 
+// A cell as JSON. JSON has no NaN and no infinity (nlohmann-json would write null): those become text.
 Json json_value(const Cell& cell) {
   if (const auto* number = std::get_if<double>(&cell)) {
     if (std::isfinite(*number)) return *number;

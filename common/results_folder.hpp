@@ -27,8 +27,9 @@ class ResultsFolder {
   void keep_if_killed();
   // Moves every file into place. Files that the run before wrote, by the list in its summary.json, and this
   // one did not, are removed, so that nothing of two runs stands side by side; files of anybody else stay.
-  // Throws InputError if something cannot be replaced; then nothing has changed, and what was written stays
-  // aside.
+  // Throws InputError if something cannot be replaced, and says where the results are. A folder in the way of a
+  // file is found before the first file is moved, so nothing has changed then; if the move of one file fails
+  // later, that one and those after it stay aside.
   void put_in_place();
 
  private:

@@ -7,13 +7,14 @@
 #include <vector>
 
 #include "ch01_convex_advancement/gjk.hpp"
+#include "ch01_convex_advancement/rounding.hpp"
 
 namespace fc::ca {
 namespace {
 
 // As a share of the shapes' sizes: a thickness below this counts as none, and a point that is this far outside a
 // face counts as on it.
-constexpr double kFlat = 64 * std::numeric_limits<double>::epsilon();
+constexpr double kFlat = 64 * kEpsilon;
 
 // The Minkowski difference A - B of the cores, in A's axes, and the best direction to part them so far.
 struct Difference {

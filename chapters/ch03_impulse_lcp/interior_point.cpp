@@ -11,7 +11,6 @@ namespace fc::lcp {
 namespace {
 
 constexpr int kNewtonSteps = 100;
-constexpr double kTolerance = 1e-10;
 // How much of the way to the boundary a step may take.
 constexpr double kBack = 0.995;
 
@@ -57,7 +56,7 @@ LcpResult solve_interior_point(const Lcp& problem, const SolveOptions& options) 
   if (problem.boxed()) return refused(problem, Status::unsuited);
   const Eigen::Index n = problem.size();
   LcpResult result = refused(problem, Status::solved);
-  const double tolerance = options.tolerance > 0 ? options.tolerance : kTolerance;
+  const double tolerance = options.tolerance > 0 ? options.tolerance : kUsualResidual;
   if (n == 0 || problem.b.minCoeff() >= 0) return result;
 
   // Rows are scaled to a diagonal near 1, as in Dantzig's method; z and w begin at the size of b.

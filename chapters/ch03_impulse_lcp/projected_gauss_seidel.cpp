@@ -9,7 +9,6 @@ namespace fc::lcp {
 namespace {
 
 constexpr int kSweeps = 10000;
-constexpr double kEnough = 1e-10;
 constexpr int kLookEverySweeps = 10;
 
 // A row without entries: no z changes its w. False if w then asks for a z that does not exist.
@@ -27,7 +26,7 @@ LcpResult solve_pgs(const Lcp& problem, const SolveOptions& options) {
   const Eigen::Index n = problem.size();
   const MatX& A = problem.A;
   const int limit = options.limit > 0 ? options.limit : kSweeps;
-  const double tolerance = options.tolerance > 0 ? options.tolerance : kEnough;
+  const double tolerance = options.tolerance > 0 ? options.tolerance : kUsualResidual;
 
   VecX z = VecX::Zero(n);
   if (options.start != nullptr) z = *options.start;

@@ -28,6 +28,9 @@ inline std::ostream& operator<<(std::ostream& out, Method method) {
 // The method of that name. Throws std::invalid_argument for another word.
 Method method_named(std::string_view name);
 
+// The residual at which iterative methods stop if nobody asks for another.
+inline constexpr double kUsualResidual = 1e-10;
+
 struct SolveOptions {
   int limit = 0;         // pivots, sweeps or steps; 0: the method's own, stated in its header
   double tolerance = 0;  // the residual at which an iterative method stops, and that others must have; 0: the

@@ -307,7 +307,11 @@ Island touching_island(const World& world, const Pair& pair, double now, StepRep
     open.push_back(body);
   };
   // A group that is held is one body to all others, also where two of it are a hair more than the tolerance apart.
+  std::vector<int> groups;  // that are in it
   const auto add_group = [&](int body) {
+    const int group = world.bodies[body].group;
+    if (group < 0 || std::find(groups.begin(), groups.end(), group) != groups.end()) return;
+    groups.push_back(group);
     for (int other = 0; other < static_cast<int>(world.bodies.size()); ++other)
       if (world.held_together(body, other)) add_body(other);
   };
@@ -345,7 +349,7 @@ Island touching_island(const World& world, const Pair& pair, double now, StepRep
   while (!open.empty()) {
     const int body = open.back();
     open.pop_back();
-    if (world.bodies[body].group >= 0) add_group(body);
+    add_group(body);
     for (const int number : world.schedule.pairs_of(body)) {
       if (std::find(seen.begin(), seen.end(), number) != seen.end()) continue;
       seen.push_back(number);

@@ -14,7 +14,7 @@ namespace fc::world {
 
 // Which part of the pipeline each effect changes:
 //   Motion      gravity, drag, gyroscopic, kinematic, path: the motions that a body may have between two events
-//   Gap rule    sensor: a pair that is told of, and not stopped; sleep: a body that no pair is asked about
+//   Gap rule    sensor: its pairs are reported, and not stopped; sleep: its pairs are not queried
 //   Impact law  restitution: the right-hand side; rotation: the rows' angular parts; fixed: zeros in the inverse masses
 struct Effects {
   std::optional<Vec3> gravity;     // m/s^2

@@ -107,6 +107,9 @@ function(fc_add_test name)
   target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR} ${CMAKE_SOURCE_DIR}/chapters)
   target_compile_definitions(${name} PRIVATE FC_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
                                              FC_BIN_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
+  if(FC_SANITIZE)
+    target_compile_definitions(${name} PRIVATE FC_SANITIZED)  # tests of many random scenes take fewer
+  endif()
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60
                        PROPERTIES TIMEOUT ${ARG_TIMEOUT} ENVIRONMENT "RC_PARAMS=seed=20080101")
 endfunction()

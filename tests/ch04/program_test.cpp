@@ -194,7 +194,7 @@ TEST_F(Program, WritesWhatSensorsSee) {
   EXPECT_EQ(read_table(folder / "gate" / "contacts.csv").rows(), 0);
 }
 
-// What a scene can bring about is told in the scene's words; what was simulated by then stays.
+// A failure that a scene can cause names the key of the scene; what was simulated until then stays.
 TEST_F(Program, AFailureNamesTheKeyToChange) {
   const Outcome outcome =
       chapter(FC_SOURCE_DIR

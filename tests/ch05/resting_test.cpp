@@ -230,14 +230,18 @@ TEST(Program, NothingOverlapsInChapterFoursScenes) {
   }
 }
 
+// Runs the stack for a tenth of a second into the folder.
+std::string short_stack(const std::filesystem::path& folder) {
+  return FC_BIN_DIR
+         "/ch05_resting_contact " FC_SOURCE_DIR
+         "/chapters/ch05_resting_contact/scenes/stack.yaml --quiet --set step.duration=0.1 --out " +
+         folder.string();
+}
+
 // The envelope is looked at before anything is written.
 TEST(Program, ARefusedEnvelopeLeavesTheResultsOfTheRunBefore) {
   const auto folder = scratch("kept");
-  const std::string stack =
-      FC_BIN_DIR "/ch05_resting_contact " FC_SOURCE_DIR
-                 "/chapters/ch05_resting_contact/scenes/stack.yaml --quiet --set step.duration=0.1 "
-                 "--out " +
-      folder.string();
+  const std::string stack = short_stack(folder);
   ASSERT_EQ(run(stack).exit_code, 0);
   const std::string before = fc_test::contents(folder / "steps.csv");
   const auto refused = run(stack + " --set envelope=1e-5");
@@ -248,11 +252,7 @@ TEST(Program, ARefusedEnvelopeLeavesTheResultsOfTheRunBefore) {
 // The scene's solver solves resting contacts, too: what it leaves, or that it gives up, is seen.
 TEST(Program, TheScenesSolverSolvesRestingContacts) {
   const auto folder = scratch("solver");
-  const std::string stack =
-      FC_BIN_DIR "/ch05_resting_contact " FC_SOURCE_DIR
-                 "/chapters/ch05_resting_contact/scenes/stack.yaml --quiet --set step.duration=0.1 "
-                 "--out " +
-      folder.string();
+  const std::string stack = short_stack(folder);
   ASSERT_EQ(run(stack).exit_code, 0);
   const std::string usual = fc_test::contents(folder / "contacts.csv");
   ASSERT_EQ(run(stack + " --set solver.method=lemke").exit_code, 0);

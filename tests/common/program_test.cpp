@@ -138,7 +138,7 @@ TEST_F(Program, FailuresAreExitCode3WithTheSummaryWritten) {
 
 TEST_F(Program, AFailureBeginsWithTheKeyThatItIsAbout) {
   std::ofstream(here_ / "solver.yaml") << fc_test::one_ball << "solver:\n  limit: 5\n";
-  const std::string rest = "so many are too few; raise it\n";
+  const std::string rest = "the limit was reached; raise it\n";
   EXPECT_EQ(run("solver.yaml --set name=keyed").err, "solver.yaml:7:3: " + rest);
   EXPECT_EQ(run("ball.yaml --set name=keyed --set solver.limit=7").err, "--set solver.limit=7: " + rest);
   EXPECT_EQ(run("ball.yaml --set name=keyed --set solver.method=pgs").err,

@@ -26,7 +26,7 @@ int run(const fc::Scene& scene, const fc::RunContext& context, fc::Summary& summ
   if (scene.name == "bad-input") throw fc::InputError(scene.bodies[0].where, "the ball overlaps; move it");
   if (scene.name == "late" && scene.step->dt > 0.05)
     throw fc::InputError(scene.bodies[0].where, "the ball is too late; move it");
-  if (scene.name == "keyed") throw fc::SceneFailure("so many are too few; raise it", "solver.limit");
+  if (scene.name == "keyed") throw fc::SceneFailure("the limit was reached; raise it", "solver.limit");
   if (scene.name == "memory") throw std::bad_alloc();
   if (scene.name == "numerical") throw fc::NumericalFailure("energy grew\nby 3 J at step 7");
   if (scene.name == "mistake") throw std::invalid_argument("radius is -1, expected > 0");
