@@ -79,7 +79,11 @@ void Contacts::next_frame() {
   if (frame_ % kKept == 0) std::erase_if(pairs_, [&](const auto& p) { return p.second.used + kKept < frame_; });
 }
 
-void Contacts::update(const world::World& world, PairContacts& pair, const Pose& a, const Pose& b) {
+void Contacts::update(const world::World& world, PairContacts& pair, const Pose& a, const Pose& b,
+                      const SearchOptions& options) {
+  const bool is_convex = convex(world, pair);
+  const double reach = is_convex && options.reach > 0 ? options.reach : margin_,
+               again = options.again > 0 ? options.again : kSearchAgain * margin_;
   const double reach_a = world.shapes[world.bodies[pair.a].shape].reach,
                reach_b = world.shapes[world.bodies[pair.b].shape].reach;
   pair.axis_known = false;
@@ -87,31 +91,44 @@ void Contacts::update(const world::World& world, PairContacts& pair, const Pose&
     const double way = reach_a < reach_b ? moved(pair.searched, seen_from(b, a), reach_a)
                                          : moved(pair.searched, seen_from(a, b), reach_b);
     pair.gap = pair.searched_gap - way;
-    if (pair.gap > margin_) {
+    if (pair.gap > reach) {
       pair.points.clear();
       return;
     }
-    const bool is_convex = convex(world, pair);
     if (is_convex) {
       pair.axis_gap = axis_gap(world, pair, a, b);
       pair.axis_known = true;
     }
-    if (!pair.points.empty() && way <= kSearchAgain * margin_) {
+    if (!pair.points.empty() && way <= again) {
       if (is_convex) pair.gap = std::max(pair.gap, pair.axis_gap);
       // A bound that says too little would let the path come nearer than it may.
       if (way == 0 || pair.gap > kLeastKnown * margin_) return;
     }
-    if (is_convex && pair.axis_gap > margin_) {
+    if (is_convex && pair.axis_gap > reach) {
       pair.searched = reach_a < reach_b ? seen_from(b, a) : seen_from(a, b);
       pair.searched_gap = pair.gap = pair.axis_gap;
       pair.points.clear();
       return;
     }
   }
-  pair.gap = search(world, pair, a, b);
+  pair.gap = search(world, pair, a, b, reach);
   pair.searched = reach_a < reach_b ? seen_from(b, a) : seen_from(a, b);
   pair.searched_gap = pair.gap;
   pair.known = true;
+}
+
+double Contacts::least_gap(const world::World& world, const PairContacts& pair, const Pose& a, const Pose& b) const {
+  const hulls::Model &model_a = world.model_of(pair.a), &model_b = world.model_of(pair.b);
+  const Vec3 apart = b.position - a.position;
+  double gap = apart.norm() - model_a.reach - model_b.reach;
+  if (pair.known) {
+    const bool smaller_a = model_a.reach < model_b.reach;
+    gap = std::max(gap, pair.searched_gap - (smaller_a ? moved(pair.searched, seen_from(b, a), model_a.reach)
+                                                       : moved(pair.searched, seen_from(a, b), model_b.reach)));
+  }
+  if (!convex(world, pair)) return gap;
+  const Vec3 axis = pair.known ? pair.axis_at(a, b) : apart.normalized();
+  return std::max(gap, ca::support_gap(model_a.leaf(0), model_b.leaf(0), ca::PairPose(a, b), axis));
 }
 
 double Contacts::axis_gap(const world::World& world, const PairContacts& pair, const Pose& a,
@@ -123,7 +140,7 @@ double Contacts::axis_gap(const world::World& world, const PairContacts& pair, c
 std::vector<ContactPoint> Contacts::points_at(const world::World& world, PairContacts& pair, const Pose& a,
                                               const Pose& b, double& gap) {
   PairContacts there = pair;
-  gap = search(world, there, a, b);
+  gap = search(world, there, a, b, margin_);
   pair.simplex = there.simplex;
   return std::move(there.points);
 }
@@ -138,9 +155,9 @@ ca::GjkResult Contacts::nearest(const world::World& world, PairContacts& pair, c
   return result;
 }
 
-double Contacts::search(const world::World& world, PairContacts& pair, const Pose& a, const Pose& b) {
+double Contacts::search(const world::World& world, PairContacts& pair, const Pose& a, const Pose& b, double reach) {
   ++searched_;
-  return convex(world, pair) ? search_convex(world, pair, a, b) : search_mesh(world, pair, a, b);
+  return convex(world, pair) ? search_convex(world, pair, a, b, reach) : search_mesh(world, pair, a, b);
 }
 
 // A new point; as a guess, the force of the same point before, or of the nearest one.
@@ -156,7 +173,8 @@ void Contacts::add(PairContacts& pair, const ContactPoint& point, const std::vec
   }
 }
 
-double Contacts::search_convex(const world::World& world, PairContacts& pair, const Pose& a, const Pose& b) {
+double Contacts::search_convex(const world::World& world, PairContacts& pair, const Pose& a, const Pose& b,
+                               double reach) {
   const ca::PairPose pose(a, b);
   ca::GjkResult result = nearest(world, pair, pose);
   if (!(result.lower > 0) && pair.known) {
@@ -173,11 +191,11 @@ double Contacts::search_convex(const world::World& world, PairContacts& pair, co
   pair.axis_gap = result.lower;
   pair.axis_known = true;
   const std::vector<ContactPoint> before = std::exchange(pair.points, {});
-  if (result.lower > margin_) return result.lower;
+  if (result.lower > reach) return result.lower;
   Patch patch;
   find_patch({world.model_of(pair.a), facets_[static_cast<std::size_t>(world.bodies[pair.a].shape)]},
              {world.model_of(pair.b), facets_[static_cast<std::size_t>(world.bodies[pair.b].shape)]}, pose,
-             result, std::clamp(0.25 * result.lower, 0.0, kSlack * margin_), kFar * margin_, patch);
+             result, std::clamp(0.25 * result.lower, 0.0, kSlack * margin_), kFar * margin_ + (reach - margin_), patch);
   pair.axis_gap = patch.gap;
   pair.of_b = patch.of_b;
   pair.axis = (patch.of_b ? b : a).rotation.transpose() * patch.normal;

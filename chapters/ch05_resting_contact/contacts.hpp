@@ -49,12 +49,17 @@ struct ContactPoint {
   double gap_at(const Pose& pose_a, const Pose& pose_b) const {
     return normal_at(pose_a, pose_b).dot(on_b(pose_a, pose_b) - on_a(pose_a, pose_b));
   }
+  // Whether another point of the same pair is at the same place, to `near` (m), with the same normal.
+  bool is_same(const ContactPoint& other, double near) const {
+    return key == other.key && of_b == other.of_b && (local_normal - other.local_normal).norm() < 1e-6 &&
+           (a.local - other.a.local).norm() + (b.local - other.b.local).norm() < near;
+  }
 };
 
 // Two bodies that come near each other, and what is known of the gap between them.
 struct PairContacts {
   int a = 0, b = 0;                  // a < b
-  std::vector<ContactPoint> points;  // none if the gap is wider than the margin
+  std::vector<ContactPoint> points;  // none if the gap is wider than the margin, or was when they were searched
   double gap = 0;                    // m, certified, at the poses of the last update()
   // When it was last searched: the smaller body as seen from the larger, and the gap.
   Pose searched;
@@ -73,6 +78,12 @@ struct PairContacts {
   Vec3 axis_at(const Pose& a_now, const Pose& b_now) const { return (of_b ? b_now : a_now).rotation * axis; }
 };
 
+// What update() is to find.
+struct SearchOptions {
+  double reach = 0;  // m: contact points of pairs with a gap up to this, if they are convex; 0: the margin
+  double again = 0;  // m: they are found anew if the two have moved by more against each other; 0: a quarter of the margin
+};
+
 class Contacts {
  public:
   // margin: m; bodies that are nearer than this are in contact.
@@ -86,7 +97,10 @@ class Contacts {
   std::int64_t searched() const { return searched_; }  // pairs, in all
 
   // Brings the pair's gap and points to these poses of its bodies.
-  void update(const world::World& world, PairContacts& pair, const Pose& a, const Pose& b);
+  void update(const world::World& world, PairContacts& pair, const Pose& a, const Pose& b,
+              const SearchOptions& options = {});
+  // A certified bound of the gap (m) at these poses, from what is known already: without a search.
+  double least_gap(const world::World& world, const PairContacts& pair, const Pose& a, const Pose& b) const;
   // The points that the two have at other poses, and the gap there (m, certified). The pair keeps its own.
   std::vector<ContactPoint> points_at(const world::World& world, PairContacts& pair, const Pose& a,
                                       const Pose& b, double& gap);
@@ -99,8 +113,8 @@ class Contacts {
   }
 
  private:
-  double search(const world::World& world, PairContacts& pair, const Pose& a, const Pose& b);
-  double search_convex(const world::World& world, PairContacts& pair, const Pose& a, const Pose& b);
+  double search(const world::World& world, PairContacts& pair, const Pose& a, const Pose& b, double reach);
+  double search_convex(const world::World& world, PairContacts& pair, const Pose& a, const Pose& b, double reach);
   double search_mesh(const world::World& world, PairContacts& pair, const Pose& a, const Pose& b);
   static void add(PairContacts& pair, const ContactPoint& point, const std::vector<ContactPoint>& before);
 

@@ -99,7 +99,7 @@ InstantResult resolve_instant(const world::World& world, Island& island, double 
   const auto compress = [&] {
     const IslandResult solved = solver.solve(bodies, contacts, allowed, impulses, options.solver);
     result.residual = std::max(result.residual, solved.residual);
-    result.sweeps += solved.sweeps;
+    result.steps += solved.steps;
     result.status = solved.status;
     result.rows += static_cast<int>(contacts.size());
     ++result.solves;

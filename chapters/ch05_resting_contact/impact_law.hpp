@@ -21,7 +21,7 @@ struct InstantResult {
   bool impact = false;  // something came in faster than rest_speed
   std::vector<world::ImpactRecord> records;
   std::vector<std::uint64_t> keys;  // of their points
-  int contacts = 0, rows = 0, solves = 0, sweeps = 0;
+  int contacts = 0, rows = 0, solves = 0, steps = 0;
   lcp::Status status = lcp::Status::limit;  // if not solved
   double residual = 0, kinematic_work = 0, energy_gain = 0;
 };

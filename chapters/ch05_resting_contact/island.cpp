@@ -1,6 +1,7 @@
 #include "ch05_resting_contact/island.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "ch04_multibody_stepping/sensors.hpp"
 
@@ -27,49 +28,32 @@ int IslandFinder::place_of(const world::World& world, Island& island, int body) 
   return place;
 }
 
-Island IslandFinder::grow(const world::World& world, int body, std::vector<char>& crowded, double left) {
-  const double fall = world.effects.gravity ? left * world.effects.gravity->norm() : 0;  // m/s
-  const auto speed = [&](int number, const RigidBody& state) {
-    return state.velocity.norm() +
-           state.spin.norm() * world.shapes[static_cast<std::size_t>(world.bodies[static_cast<std::size_t>(number)].shape)].reach;
-  };
+Island IslandFinder::grow(const world::World& world, int body, const std::vector<int>& crowd_of) {
   Island island;
   ++island_;
   place_of(world, island, body);
-  std::vector<int> others;
   for (std::size_t next = 0; next < island.members.size(); ++next) {
-    if (!island.members[next].dynamic) continue;
     const int i = island.members[next].number;
+    if (!island.members[next].dynamic || crowd_of[static_cast<std::size_t>(i)] >= 0) continue;
     const Pose pose = island.members[next].state.pose();
-    const world::Body& b = world.bodies[static_cast<std::size_t>(i)];
-    const Vec3 half = (pose.rotation.cwiseAbs() * world.half_extents[static_cast<std::size_t>(b.shape)])
-                          .cwiseMin(Vec3::Constant(world.shapes[static_cast<std::size_t>(b.shape)].reach)) +
+    const auto shape = static_cast<std::size_t>(world.bodies[static_cast<std::size_t>(i)].shape);
+    const Vec3 half = (pose.rotation.cwiseAbs() * world.half_extents[shape])
+                          .cwiseMin(Vec3::Constant(world.shapes[shape].reach)) +
                       Vec3::Constant(contacts_.margin());
-    const double own_speed = speed(i, island.members[next].state);
-    const Vec3 path = Vec3::Constant(crowded[static_cast<std::size_t>(i)] ? left * (own_speed + fall) : 0.0);
-    others.clear();
-    world.schedule.overlapping({pose.position - half - path, pose.position + half + path}, [&](int other) {
+    others_.clear();
+    world.schedule.overlapping({pose.position - half, pose.position + half}, [&](int other) {
       if (other == i || world::is_sensor_pair(world, i, other)) return;
       // Of two that can be moved, whoever was looked at first has looked at both.
-      // One that is in another island was not reached from there: a crowd reaches farther than it does.
-      if (world.yields(other) && is_in_island(other) &&
-          (stamp_[static_cast<std::size_t>(other)] != island_ ||
-           place_[static_cast<std::size_t>(other)] < static_cast<int>(next)))
-        return;
-      others.push_back(other);
+      const auto at = static_cast<std::size_t>(other);
+      const bool done = stamp_[at] == island_ && place_[at] < static_cast<int>(next) && crowd_of[at] < 0;
+      if (!world.yields(other) || !done) others_.push_back(other);
     });
-    std::sort(others.begin(), others.end());
-    for (const int other : others) {
+    std::sort(others_.begin(), others_.end());
+    for (const int other : others_) {
       PairContacts& pair = contacts_.pair(i, other);
-      const RigidBody state = world.state_at(other, now_);
-      const Pose there = state.pose();
+      const Pose there = world.state_at(other, now_).pose();
       contacts_.update(world, pair, pair.a == i ? pose : there, pair.a == i ? there : pose);
-      if (pair.points.empty() || pair.gap > contacts_.margin()) {
-        const bool arrives = crowded[static_cast<std::size_t>(i)] && world.yields(other) &&
-                             pair.gap - left * (own_speed + speed(other, state) + fall) <= contacts_.margin();
-        if (!arrives) continue;
-        crowded[static_cast<std::size_t>(other)] = 1;
-      }
+      if (pair.points.empty() || pair.gap > contacts_.margin()) continue;
       const int place = place_of(world, island, other), own = static_cast<int>(next);
       island.pairs.push_back({&pair, pair.a == i ? own : place, pair.a == i ? place : own});
     }
@@ -81,6 +65,50 @@ Island IslandFinder::grow(const world::World& world, int body, std::vector<char>
       place_[static_cast<std::size_t>(member.number)] = -1;
   }
   return island;
+}
+
+std::vector<std::vector<int>> find_crowds(const world::World& world, Contacts& contacts, double dt, double most_work) {
+  const std::size_t count = world.bodies.size();
+  std::vector<int> parent(count), arrivals(count, 0), points(count, 0);
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](int body) {
+    while (parent[static_cast<std::size_t>(body)] != body)
+      body = parent[static_cast<std::size_t>(body)] = parent[static_cast<std::size_t>(parent[static_cast<std::size_t>(body)])];
+    return body;
+  };
+  world.schedule.overlapping_pairs([&](int a, int b) {
+    if (!world.yields(a) || !world.yields(b) || world.bodies[static_cast<std::size_t>(a)].sensor ||
+        world.bodies[static_cast<std::size_t>(b)].sensor)
+      return;
+    PairContacts& pair = contacts.pair(a, b);
+    const RigidBody &first = world.bodies[static_cast<std::size_t>(pair.a)].state,
+                    &second = world.bodies[static_cast<std::size_t>(pair.b)].state;
+    const double gap = contacts.least_gap(world, pair, first.pose(), second.pose());
+    const double way = dt * ((second.velocity - first.velocity).norm() +
+                             first.spin.norm() * world.model_of(pair.a).reach + second.spin.norm() * world.model_of(pair.b).reach);
+    if (gap - way > contacts.margin()) return;
+    const int low = std::min(root(a), root(b)), high = std::max(root(a), root(b));
+    parent[static_cast<std::size_t>(high)] = low;
+    if (high != low) {
+      arrivals[static_cast<std::size_t>(low)] += arrivals[static_cast<std::size_t>(high)];
+      points[static_cast<std::size_t>(low)] += points[static_cast<std::size_t>(high)];
+    }
+    const int known = static_cast<int>(pair.points.size());
+    if (known == 0 || pair.gap > contacts.margin()) ++arrivals[static_cast<std::size_t>(low)];
+    else points[static_cast<std::size_t>(low)] += known;
+  });
+  std::vector<std::vector<int>> crowds;
+  std::vector<int> crowd_of(count, -1);
+  for (int body = 0; body < static_cast<int>(count); ++body) {
+    const auto first = static_cast<std::size_t>(root(body));
+    if (event_work(arrivals[first], points[first]) <= most_work) continue;
+    if (crowd_of[first] < 0) {
+      crowd_of[first] = static_cast<int>(crowds.size());
+      crowds.emplace_back();
+    }
+    crowds[static_cast<std::size_t>(crowd_of[first])].push_back(body);
+  }
+  return crowds;
 }
 
 }  // namespace fc::resting

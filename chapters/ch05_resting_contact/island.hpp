@@ -42,10 +42,9 @@ class IslandFinder {
   IslandFinder(Contacts& contacts, std::size_t bodies);
   void begin(double now);
   // The island of a body that can be moved and is in none since begin(). Bodies that are not in contact: an island of
-  // one body without pairs. Sleeping bodies that it reaches belong to it.
-  // Of bodies that `crowded` names, whoever may come into contact within `left` seconds belongs to it, too, and is then
-  // crowded: one island, and no events in its midst.
-  Island grow(const world::World& world, int body, std::vector<char>& crowded, double left);
+  // one body without pairs. Sleeping bodies that it reaches belong to it. So do members of crowds (crowd_of[body] >= 0), but
+  // nobody is looked for from there.
+  Island grow(const world::World& world, int body, const std::vector<int>& crowd_of);
   bool is_in_island(int body) const { return stamp_[static_cast<std::size_t>(body)] >= first_; }
 
  private:
@@ -54,8 +53,20 @@ class IslandFinder {
   Contacts& contacts_;
   double now_ = 0;
   std::int64_t first_ = 1, island_ = 0;  // numbers of islands: since the last begin(), and the one at hand
-  std::vector<std::int64_t> stamp_;       // of each body: its island's
-  std::vector<int> place_;           // there; of a body that cannot be moved, in the island at hand, or -1
+  std::vector<std::int64_t> stamp_;      // of each body: its island's
+  std::vector<int> place_;               // there; of a body that cannot be moved, in the island at hand, or -1
+  std::vector<int> others_;
 };
+
+// How much work it would be to follow bodies from event to event: with so many pairs of which each may come into contact, and
+// so many contact points of those that are.
+inline double event_work(int arrivals, int points) {
+  const double rows = 8 + points;
+  return (1 + arrivals) * rows * rows;
+}
+
+// Groups of bodies that are in contact, or may come into contact with each other within dt seconds from a frame's start on,
+// that would be more than `most_work`. Their boxes are in the schedule.
+std::vector<std::vector<int>> find_crowds(const world::World& world, Contacts& contacts, double dt, double most_work);
 
 }  // namespace fc::resting

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "ch03_impulse_lcp/impact.hpp"
-#include "ch04_multibody_stepping/sensors.hpp"
 
 namespace fc::resting {
 namespace {
@@ -23,70 +22,75 @@ constexpr double kStop = 0.25;
 constexpr double kRoom = 0.55;
 
 // A pair that turns in contact is proved sooner by a shorter plan than by ever smaller steps: so many pairs of nodes are
-// looked at, of two convex bodies and of meshes.
-constexpr std::int64_t kMostPairs = 1000, kMostPairsOfMeshes = 50'000,
-                       kNoMost = std::numeric_limits<std::int64_t>::max();
+// looked at.
+constexpr std::int64_t kMostPairs = 50'000;
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-constexpr int kMostProofs = 4;  // rounds in which unproved pairs become rows
-
-// The mean of the spin that turns one orientation into another in a time.
-Vec3 mean_spin(const Mat3& from, const Mat3& to, double time) {
-  const Eigen::AngleAxisd turn(to * from.transpose());
-  return turn.angle() / time * turn.axis();
-}
+constexpr int kMostProofs = 4;   // rounds in which unproved pairs become rows
+constexpr int kMostRounds = 8;   // in which the paths' ends are looked at again
+constexpr double kClosed = 1e-6;  // of the margin: how exactly contacts close at the plan's end
 
 }  // namespace
 
-void PlanMaker::start(const world::World& world, const Island& island, double now) {
-  ++number_;
-  for (const Member& member : members_) place_of_[at(member.number)] = -1;
-  place_of_.resize(world.bodies.size(), -1);
-  members_ = island.members;
-  const std::size_t count = members_.size();
-  for (std::size_t i = 0; i < count; ++i) place_of_[at(members_[i].number)] = static_cast<int>(i);
-  drift_.assign(count, {});
-  last_.assign(count, {});
-  fast_.clear();
-  tracks_.assign(count, {});
-  shares_.assign(count, 1);
-  planned_.assign(count, 0);
-  pushed_.assign(count, 0);
-  changed_.assign(count, 1);
+double wanted_gap(double gap, double margin) {
+  const double rest = 0.5 * margin;
+  if (gap >= kNearRest * rest) return std::min(gap, rest);
+  return std::max(gap + kCorrect * (rest - gap), kLeastGap * margin);
+}
+
+world::Plan course_of(const Member& member, const Twist& path, const Twist& end, double length) {
+  world::Plan course;
+  course.linear = path.linear;
+  course.angular = path.angular;
+  course.push = (end.linear - member.state.velocity) / length;
+  course.turn = (end.angular - member.state.spin) / length;
+  return course;
+}
+
+PlanMaker::Result PlanMaker::make(const world::World& world, const Island& island, double now, double length,
+                                  const PlanOptions& options) {
+  options_ = options;
+  residual_ = 0;
+  solves_ = 0;
   rows_.clear();
-  candidates_.clear();
-  for (std::size_t i = 0; i < count; ++i) {
-    const Member& member = members_[i];
-    fast_.push_back(member.state);
-    if (!member.dynamic) {
-      tracks_[i] = track_of(world, member.number, now, length_);
-      fast_[i].velocity = tracks_[i].motion.velocity;
-      fast_[i].spin = tracks_[i].motion.spin;
-      continue;
-    }
-    ca::Motion flight = world.motion(member.number, now);
-    flight.position = Vec3::Zero();  // so that no digits are lost to where it is
-    Twist& u = drift_[i];
-    u.linear = flight.drag == 0 ? Vec3(flight.velocity + 0.5 * length_ * flight.acceleration)
-                                : Vec3(flight.position_at(length_) / length_);
-    u.angular = flight.free || flight.spin_drag > 0
-                    ? mean_spin(flight.rotation, flight.rotation_at(length_), length_)
-                    : flight.spin;
-    last_[i] = {flight.velocity_at(length_) - u.linear, flight.spin_at(length_) - u.angular};
-  }
+  courses_.start(world, island.members, now, length);
   for (const IslandPair& pair : island.pairs) {
     if (comes_in_fast(pair)) continue;
-    const int candidate = candidate_of(pair.contacts, pair.a, pair.b);
-    candidates_[at(candidate)].in_contact = !pair.contacts->points.empty();
+    const int candidate = courses_.candidate_of(pair.contacts, pair.a, pair.b);
+    courses_.candidates[at(candidate)].in_contact = !pair.contacts->points.empty();
     for (const ContactPoint& point : pair.contacts->points) add_row(world, candidate, point, false);
   }
+  const auto floor = [&](const Candidate& pair) {
+    return (pair.in_contact ? kFloor : kStop) * contacts_.margin();
+  };
+  const auto acts_on_air = [&](const Row& row) {  // an impulse across more than the margin
+    return row.impulse > 0 && row.arrives && row.end_gap > contacts_.margin();
+  };
+  for (int round = 0; round < kMostProofs; ++round) {
+    if (!close_ends()) return Result::unsolved;
+    courses_.find(world, false);
+    for (std::size_t i = fast_.size(); i < courses_.members.size(); ++i) {
+      fast_.push_back(courses_.members[i].state);
+      path_.push_back(courses_.members[i].state);
+    }
+    const bool clear = courses_.prove(world, floor, kMostPairs);
+    if (std::any_of(rows_.begin(), rows_.end(), acts_on_air)) return Result::unproved;
+    if (clear) return Result::proved;
+    bool any = false;
+    meeting_ = length;
+    for (int i = 0; i < static_cast<int>(courses_.candidates.size()); ++i)
+      if (!courses_.candidates[at(i)].clear && add_rows_of(world, i)) any = true;
+    if (meeting_ < length) return Result::meets;
+    if (!any) return Result::unproved;
+  }
+  return Result::unproved;
 }
 
 // Whether a pair that bounces comes in fast: it is in the margin, but there is room left.
 bool PlanMaker::comes_in_fast(const IslandPair& pair) const {
-  if (!options_.exact || pair.contacts->points.empty()) return false;
-  const RigidBody &a = members_[at(pair.a)].state, &b = members_[at(pair.b)].state;
+  if (pair.contacts->points.empty()) return false;
+  const RigidBody &a = courses_.members[at(pair.a)].state, &b = courses_.members[at(pair.b)].state;
   const Pose pose_a = a.pose(), pose_b = b.pose();
   double nearest = std::numeric_limits<double>::infinity(), fastest = 0;
   for (const ContactPoint& point : pair.contacts->points) {
@@ -97,73 +101,64 @@ bool PlanMaker::comes_in_fast(const IslandPair& pair) const {
   return fastest < -options_.rest_speed && nearest > kRoom * contacts_.margin();
 }
 
-int PlanMaker::candidate_of(PairContacts* contacts, int a, int b) {
-  if (contacts->plan != number_) {
-    contacts->plan = number_;
-    contacts->place = static_cast<int>(candidates_.size());
-    candidates_.push_back({contacts, a, b});
-  }
-  return contacts->place;
-}
-
 void PlanMaker::add_row(const world::World& world, int candidate, const ContactPoint& point, bool arrives) {
-  const Candidate& pair = candidates_[at(candidate)];
-  const RigidBody &a = members_[at(pair.a)].state, &b = members_[at(pair.b)].state;
-  const Pose pose_a = a.pose(), pose_b = b.pose();
-  const double rest = 0.5 * contacts_.margin();
+  const Candidate& pair = courses_.candidates[at(candidate)];
+  const Member &a = courses_.members[at(pair.a)], &b = courses_.members[at(pair.b)];
+  const Pose pose_a = a.state.pose(), pose_b = b.state.pose();
   Row row;
   row.pair = candidate;
   row.point = point;
-  row.arrives = arrives;
   row.gap = point.gap_at(pose_a, pose_b);
+  row.arrives = arrives || row.gap > contacts_.margin();
   row.contact = {pair.a, pair.b, point.middle(pose_a, pose_b), point.normal_at(pose_a, pose_b), row.gap, 0,
-                 world.turns(members_[at(pair.a)].number), world.turns(members_[at(pair.b)].number)};
-  const double gap = arrives ? std::min(pair.contacts->gap, rest) : row.gap;
-  row.keep = std::min(gap, rest);
-  row.want = gap >= kNearRest * rest ? row.keep
-                                     : std::max(gap + kCorrect * (rest - gap), kLeastGap * contacts_.margin());
-  row.impulse = arrives ? 0 : point.force * length_;
+                 world.turns(a.number), world.turns(b.number)};
+  const double gap = arrives ? std::min(pair.contacts->gap, 0.5 * contacts_.margin()) : row.gap;
+  row.keep = std::min(gap, 0.5 * contacts_.margin());
+  row.want = wanted_gap(gap, contacts_.margin());
+  row.impulse = arrives ? 0 : point.force * courses_.length();
   rows_.push_back(row);
+}
+
+// From impulses_, with allowed_; bodies get the velocities.
+bool PlanMaker::solve(std::vector<RigidBody>& bodies) {
+  if (rows_.empty()) return true;
+  const IslandResult result = solver_.solve(bodies, contact_list_, allowed_, impulses_, options_.solver);
+  residual_ = std::max(residual_, result.residual);
+  ++solves_;
+  if (!result.solved) status_ = result.status;
+  return result.solved;
 }
 
 // Steps 1 and 2, with the rows' right-hand sides as they are.
 bool PlanMaker::solve() {
-  for (std::size_t i = 0; i < members_.size(); ++i) {
-    if (!members_[i].dynamic) continue;
-    fast_[i].velocity = drift_[i].linear;
-    fast_[i].spin = drift_[i].angular;
+  const double length = courses_.length();
+  fast_.clear();
+  for (std::size_t i = 0; i < courses_.members.size(); ++i) {
+    fast_.push_back(courses_.members[i].state);
+    fast_.back().velocity = courses_.drift[i].linear;
+    fast_.back().spin = courses_.drift[i].angular;
   }
   contact_list_.clear();
   allowed_.clear();
   impulses_.clear();
   for (const Row& row : rows_) {
     contact_list_.push_back(row.contact);
-    allowed_.push_back(std::max((row.gap + row.bend - row.keep) / length_, -row.most_push));
+    allowed_.push_back(std::max((row.gap + row.bend - row.keep) / length, -row.most_push));
     impulses_.push_back(row.impulse);
   }
-  const auto solved = [&](std::vector<RigidBody>& bodies) {
-    if (rows_.empty()) return true;
-    const IslandResult result = solver_.solve(bodies, contact_list_, allowed_, impulses_, options_.solver);
-    residual_ = std::max(residual_, result.residual);
-    sweeps_ += result.sweeps;
-    ++solves_;
-    if (!result.solved) status_ = result.status;
-    return result.solved;
-  };
-  if (!solved(fast_)) return false;
+  if (!solve(fast_)) return false;
   for (std::size_t r = 0; r < rows_.size(); ++r) rows_[r].impulse = impulses_[r];
 
   path_ = fast_;
   bool short_of = false;
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     const Row& row = rows_[r];
-    allowed_[r] = (row.gap + row.bend - row.want) / length_;
+    allowed_[r] = (row.gap + row.bend - row.want) / length;
     impulses_[r] = row.correction;
-    if (lcp::contact_velocity(path_, row.contact) + allowed_[r] < -options_.closed * contacts_.margin() / length_)
+    if (lcp::contact_velocity(path_, row.contact) + allowed_[r] < -kClosed * contacts_.margin() / length)
       short_of = true;
   }
-  if (!short_of) std::fill(impulses_.begin(), impulses_.end(), 0.0);
-  if (short_of && !solved(path_)) {  // there is no room for all of it: gaps stay as they are
+  if (!short_of || !solve(path_)) {  // nothing to put right, or no room for all of it: gaps stay as they are
     path_ = fast_;
     std::fill(impulses_.begin(), impulses_.end(), 0.0);
   }
@@ -171,357 +166,110 @@ bool PlanMaker::solve() {
   return true;
 }
 
-void PlanMaker::follow(int member) {
-  const Member& m = members_[at(member)];
-  if (!m.dynamic) return;
-  const RigidBody& path = path_[at(member)];
-  Track& track = tracks_[at(member)];
-  if (track.moves && track.velocity == path.velocity && track.spin == path.spin && changed_[at(member)] == 0) return;
-  changed_[at(member)] = 1;
-  track = straight_track(m.state, path.velocity, path.spin, tracks_[at(member)].reach, length_);
-}
-
-// The contact's velocity (m/s) at the end of the paths, with the velocities w.
-double PlanMaker::end_speed(const Row& row, const Track& a, const Track& b) const {
-  const RigidBody &fast_a = fast_[at(row.contact.body_a)], &fast_b = fast_[at(row.contact.body_b)];
-  const Vec3 arm_a = row.point.on_a(a.end, b.end) - a.end.position,
-             arm_b = row.point.on_b(a.end, b.end) - b.end.position;
-  return row.point.normal_at(a.end, b.end)
-      .dot(fast_b.velocity + fast_b.spin.cross(arm_b) - fast_a.velocity - fast_a.spin.cross(arm_a));
+// The contact's velocity (m/s) at the end of the paths, if bodies have these velocities.
+double PlanMaker::end_speed(const Row& row, const std::vector<RigidBody>& bodies) const {
+  const Track &track_a = courses_.tracks[at(row.contact.body_a)], &track_b = courses_.tracks[at(row.contact.body_b)];
+  const RigidBody &a = bodies[at(row.contact.body_a)], &b = bodies[at(row.contact.body_b)];
+  const Vec3 arm_a = row.point.on_a(track_a.end, track_b.end) - track_a.end.position,
+             arm_b = row.point.on_b(track_a.end, track_b.end) - track_b.end.position;
+  return row.point.normal_at(track_a.end, track_b.end)
+      .dot(b.velocity + b.spin.cross(arm_b) - a.velocity - a.spin.cross(arm_a));
 }
 
 // Solves until the gaps at the end are what the rows say of them.
 bool PlanMaker::close_ends() {
   for (Row& row : rows_) row.most_push = kNoLimit;
-  for (int round = 0; round < options_.most_rounds; ++round) {
+  for (int round = 0; round < kMostRounds; ++round) {
     if (!solve()) return false;
-    for (int member = 0; member < static_cast<int>(members_.size()); ++member) follow(member);
+    for (std::size_t i = 0; i < courses_.members.size(); ++i)
+      courses_.go(static_cast<int>(i), {path_[i].velocity, path_[i].spin});
     double worst = 0;
     for (Row& row : rows_) {
-      const Track &a = tracks_[at(row.contact.body_a)], &b = tracks_[at(row.contact.body_b)];
+      const Track &a = courses_.tracks[at(row.contact.body_a)], &b = courses_.tracks[at(row.contact.body_b)];
       row.end_gap = row.point.gap_at(a.end, b.end);
-      const double push = std::max(0.0, -end_speed(row, a, b));
-      const double bend = row.end_gap - row.gap - length_ * lcp::contact_velocity(path_, row.contact);
-      const bool matters = row.end_gap < contacts_.margin() || row.impulse > 0 || row.correction > 0;
-      if (!matters) continue;
+      if (row.end_gap >= contacts_.margin() && !(row.impulse > 0 || row.correction > 0)) continue;
+      const double bend = row.end_gap - row.gap - courses_.length() * lcp::contact_velocity(path_, row.contact);
       worst = std::max(worst, std::abs(bend - row.bend));
+      row.most_push = std::max(0.0, -end_speed(row, fast_));
       row.bend = bend;
-      row.most_push = push;
     }
-    if (worst <= options_.closed * contacts_.margin()) break;
+    if (worst <= kClosed * contacts_.margin()) break;
   }
   return true;
 }
 
-// Whether all that push are in contact at the end: no impulse acts across more than the margin.
-bool PlanMaker::is_closed() const {
-  return std::none_of(rows_.begin(), rows_.end(), [&](const Row& row) {
-    return row.impulse > 0 && arrives(row) && row.end_gap > contacts_.margin();
-  });
-}
-
-bool PlanMaker::is_event(const Candidate& pair) const {
-  return !pair.in_contact && options_.exact;
-}
-
-double PlanMaker::need(const world::World& world, const Candidate& pair) const {
-  const double floor = (is_event(pair) ? kStop : kFloor) * contacts_.margin(), gap = pair.contacts->gap;
-  if (gap >= 2 * floor) return floor;
-  if (gap > kFloor * world.tolerance) return 0.5 * gap;
-  // It started like this, touching: then it need only not become less, but for rounding.
-  const ca::PairPose pose(tracks_[at(pair.a)].start, tracks_[at(pair.b)].start);
-  return gap - 64 * ca::rounding_term(world.model_of(pair.contacts->a).whole(),
-                                      world.model_of(pair.contacts->b).whole(), pose);
-}
-
-PathVerdict PlanMaker::check(const world::World& world, Candidate& pair, const Track& a, const Track& b) {
-  ++checked_;
-  const bool in_order = pair.contacts->a == members_[at(pair.a)].number;
-  return check_path(world, contacts_, *pair.contacts, in_order ? a : b, in_order ? b : a, length_, need(world, pair),
-                    is_event(pair) ? kNoMost : Contacts::convex(world, *pair.contacts) ? kMostPairs : kMostPairsOfMeshes);
-}
-
-// All pairs of members, and of members with what cannot be moved, that may come near each other on their paths.
-void PlanMaker::find_candidates(const world::World& world, double now) {
-  const int count = static_cast<int>(members_.size());
-  std::vector<world::Bounds> boxes(members_.size());
-  for (int i = 0; i < count; ++i) {
-    const Track& t = tracks_[at(i)];
-    const std::size_t shape = at(world.bodies[at(members_[at(i)].number)].shape);
-    const double turn = std::min(2.0, t.spin_rate * length_) * t.reach;
-    const Vec3 half = (t.start.rotation.cwiseAbs() * world.half_extents[shape]).cwiseMin(Vec3::Constant(t.reach)) +
-                      Vec3::Constant(0.5 * contacts_.margin() + turn +
-                                     0.125 * length_ * length_ * t.acceleration.norm());
-    boxes[at(i)] = {t.start.position.cwiseMin(t.end.position) - half,
-                    t.start.position.cwiseMax(t.end.position) + half};
-  }
-  const auto add = [&](int i, int j) {
-    PairContacts& contacts = contacts_.pair(members_[at(i)].number, members_[at(j)].number);
-    const std::size_t before = candidates_.size();
-    const bool in_order = contacts.a == members_[at(i)].number;
-    const int number = candidate_of(&contacts, in_order ? i : j, in_order ? j : i);
-    if (at(number) < before) return;
-    const Candidate& pair = candidates_[at(number)];
-    contacts_.update(world, contacts, tracks_[at(pair.a)].start, tracks_[at(pair.b)].start);
-  };
-  tree_.build(boxes);
-  std::vector<int> others;
-  for (int i = 0; i < count; ++i) {
-    if (!members_[at(i)].dynamic || !changed_[at(i)]) continue;
-    others.clear();
-    tree_.overlapping(boxes[at(i)], [&](int j) {
-      if (j != i && members_[at(j)].dynamic && (j > i || !changed_[at(j)])) others.push_back(j);
-    });
-    std::sort(others.begin(), others.end());
-    for (const int j : others) add(i, j);
-    others.clear();
-    world.schedule.overlapping(boxes[at(i)], [&](int other) {
-      if (!world.yields(other) && !world::is_sensor_pair(world, members_[at(i)].number, other))
-        others.push_back(other);
-    });
-    std::sort(others.begin(), others.end());
-    for (const int other : others) {
-      int place = place_of_[at(other)];
-      if (place < 0) {
-        place = static_cast<int>(members_.size());
-        RigidBody state = world.state_at(other, now);
-        tracks_.push_back(track_of(world, other, now, length_));
-        state.velocity = tracks_.back().motion.velocity;
-        state.spin = tracks_.back().motion.spin;
-        members_.push_back({other, state, false});
-        place_of_[at(other)] = place;
-        fast_.push_back(state);
-        path_.push_back(state);
-        drift_.emplace_back();
-        last_.emplace_back();
-        shares_.push_back(1);
-        planned_.push_back(0);
-        pushed_.push_back(0);
-        changed_.push_back(0);
-      }
-      add(i, place);
-    }
-  }
-}
-
-// Step 3: whether all paths are clear; the others are in unproved().
-bool PlanMaker::prove(const world::World& world) {
-  unproved_.clear();
-  for (Candidate& pair : candidates_) {
-    if (changed_[at(pair.a)] || changed_[at(pair.b)]) {
-      const PathVerdict verdict = check(world, pair, tracks_[at(pair.a)], tracks_[at(pair.b)]);
-      pair.clear = verdict.clear;
-      pair.time = verdict.time;
-    }
-    if (!pair.clear) unproved_.push_back({pair.a, pair.b, pair.time / length_});
-  }
-  std::fill(changed_.begin(), changed_.end(), 0);
-  return unproved_.empty();
-}
-
-// The points that an unproved pair has at the end of its path become rows; whether there are new ones.
+// The points that an unproved pair has at the end of its path become rows; whether there are new ones. A pair that was not
+// in contact and comes in fast there is an event instead.
 bool PlanMaker::add_rows_of(const world::World& world, int candidate) {
-  Candidate& pair = candidates_[at(candidate)];
-  const Track &a = tracks_[at(pair.a)], &b = tracks_[at(pair.b)];
+  const Candidate pair = courses_.candidates[at(candidate)];
+  const Track &a = courses_.tracks[at(pair.a)], &b = courses_.tracks[at(pair.b)];
   double gap = 0;
   bool any = false;
   for (const ContactPoint& point : contacts_.points_at(world, *pair.contacts, a.end, b.end, gap)) {
     const bool known = std::any_of(rows_.begin(), rows_.end(), [&](const Row& row) {
-      return row.pair == candidate && row.point.key == point.key && row.point.of_b == point.of_b &&
-             (row.point.local_normal - point.local_normal).norm() < 1e-6 &&
-             (row.point.a.local - point.a.local).norm() + (row.point.b.local - point.b.local).norm() < contacts_.margin();
+      return row.pair == candidate && row.point.is_same(point, contacts_.margin());
     });
     if (known) continue;
-    if (is_event(pair)) {
-      const Vec3 normal = point.normal_at(a.end, b.end), arm_a = point.on_a(a.end, b.end) - a.end.position,
-                 arm_b = point.on_b(a.end, b.end) - b.end.position;
-      const double speed = normal.dot(b.velocity + b.spin.cross(arm_b) - a.velocity - a.spin.cross(arm_a));
-      if (speed < -options_.rest_speed) {
-        meeting_ = std::min(meeting_, pair.time);
-        continue;
-      }
-    }
     add_row(world, candidate, point, true);
     Row& row = rows_.back();
-    row.bend = point.gap_at(a.end, b.end) - row.gap - length_ * lcp::contact_velocity(path_, row.contact);
+    if (!pair.in_contact && end_speed(row, path_) < -options_.rest_speed) {
+      meeting_ = std::min(meeting_, pair.time);
+      rows_.pop_back();
+      continue;
+    }
+    row.bend = point.gap_at(a.end, b.end) - row.gap - courses_.length() * lcp::contact_velocity(path_, row.contact);
     any = true;
   }
   return any;
 }
 
-PlanMaker::Result PlanMaker::make(const world::World& world, const Island& island, double now, double length,
-                                  const PlanOptions& options) {
-  options_ = options;
-  length_ = length;
-  residual_ = correction_ = 0;
-  solves_ = sweeps_ = checked_ = 0;
-  start(world, island, now);
-  for (std::size_t i = 0; i < members_.size(); ++i)
-    tracks_[i].reach = world.shapes[at(world.bodies[at(members_[i].number)].shape)].reach;
-  Result result = Result::unproved;
-  for (int round = 0; round < kMostProofs; ++round) {
-    if (!close_ends()) return Result::unsolved;
-    find_candidates(world, now);
-    const bool clear = prove(world);
-    if (!is_closed()) break;
-    if (clear) {
-      result = Result::proved;
-      break;
-    }
-    bool any = false;
-    meeting_ = length_;
-    for (int i = 0; i < static_cast<int>(candidates_.size()); ++i)
-      if (!candidates_[at(i)].clear && add_rows_of(world, i)) any = true;
-    if (meeting_ < length_) {
-      result = Result::meets;
-      break;
-    }
-    if (!any) break;
-  }
-  settle();
-  return result;
-}
-
 // Who goes by the plan: whoever is pushed, or ends in contact.
-void PlanMaker::settle() {
-  for (const Row& row : rows_) {
-    const bool pushes = row.impulse > 0 || row.correction > 0;
-    for (const int member : {row.contact.body_a, row.contact.body_b}) {
-      if (!members_[at(member)].dynamic) continue;
-      if (pushes) pushed_[at(member)] = 1;
-      if (pushes || row.end_gap < contacts_.margin()) planned_[at(member)] = 1;
-    }
-  }
-  arrivals_.assign(members_.size(), {});
-  for (const Row& row : rows_) {
-    if (!(row.impulse > 0) || !arrives(row)) continue;
-    for (const bool is_a : {true, false}) {
-      const int member = is_a ? row.contact.body_a : row.contact.body_b;
-      const RigidBody& body = members_[at(member)].state;
-      if (body.is_static()) continue;
-      const Vec3 push = (is_a ? -row.impulse : row.impulse) * row.contact.normal;
-      Twist& arrival = arrivals_[at(member)];
-      arrival.linear += body.inverse_mass * push.cwiseProduct(body.free_moves);
-      if (is_a ? row.contact.turns_a : row.contact.turns_b)
-        arrival.angular += body.inverse_inertia_world() * (row.contact.point - body.position).cross(push);
-    }
-  }
-  for (std::size_t i = 0; i < members_.size(); ++i) {
-    const Vec3 linear = path_[i].velocity - fast_[i].velocity, angular = path_[i].spin - fast_[i].spin;
-    correction_ = std::max(correction_, length_ * (linear.norm() + tracks_[i].reach * angular.norm()));
-  }
-}
-
-world::Plan PlanMaker::plan_of(int member) const {
-  const std::size_t i = at(member);
-  world::Plan plan;
-  plan.linear = shares_[i] * path_[i].velocity;
-  plan.angular = shares_[i] * path_[i].spin;
-  const Vec3 linear = shares_[i] * (fast_[i].velocity + last_[i].linear) - arrivals_[i].linear,
-             angular = shares_[i] * (fast_[i].spin + last_[i].angular) - arrivals_[i].angular;
-  plan.push = (linear - members_[i].state.velocity) / length_;
-  plan.turn = (angular - members_[i].state.spin) / length_;
-  return plan;
-}
-
-std::vector<PlannedRow> PlanMaker::rows() const {
-  std::vector<PlannedRow> rows;
-  std::vector<RigidBody> drifting = fast_;
-  for (std::size_t i = 0; i < members_.size(); ++i) {
-    if (!members_[i].dynamic) continue;
-    drifting[i].velocity = drift_[i].linear;
-    drifting[i].spin = drift_[i].angular;
+Planned PlanMaker::take() {
+  const std::size_t count = courses_.members.size();
+  const double length = courses_.length();
+  Planned result;
+  std::vector<char> goes(count, 0);
+  std::vector<RigidBody> drifting = fast_, ends = fast_;  // without the impulses, and without those of arrivals
+  for (std::size_t i = 0; i < count; ++i) {
+    drifting[i].velocity = courses_.drift[i].linear;
+    drifting[i].spin = courses_.drift[i].angular;
   }
   for (const Row& row : rows_) {
+    if (row.impulse > 0 || row.correction > 0 || row.end_gap < contacts_.margin())
+      for (const int member : {row.contact.body_a, row.contact.body_b}) goes[at(member)] = 1;
     if (!(row.impulse > 0)) continue;
-    PlannedRow told;
-    told.contact = row.contact;
-    told.contact.body_a = members_[at(row.contact.body_a)].number;
-    told.contact.body_b = members_[at(row.contact.body_b)].number;
-    told.impulse = row.impulse;
-    told.before = lcp::contact_velocity(drifting, row.contact);
-    told.after = lcp::contact_velocity(fast_, row.contact);
-    told.arrives = arrives(row);
-    told.key = row.point.key;
-    if (told.arrives) {
-      const Track &a = tracks_[at(row.contact.body_a)], &b = tracks_[at(row.contact.body_b)];
+    ++result.pushing;
+    if (row.arrives) lcp::apply_impulse(ends, row.contact, -row.impulse);
+    result.kinematic_work += lcp::kinematic_work(fast_, row.contact, row.impulse);
+    PlannedRow told{row.contact, row.impulse, 0, lcp::contact_velocity(drifting, row.contact),
+                    lcp::contact_velocity(fast_, row.contact), row.point.key, row.arrives};
+    if (row.arrives) {
       told.contact.gap = row.end_gap;
-      told.contact.point = row.point.middle(a.end, b.end);
+      told.contact.point = row.point.middle(courses_.tracks[at(row.contact.body_a)].end,
+                                            courses_.tracks[at(row.contact.body_b)].end);
     }
-    // For the next plan's guess.
-    for (ContactPoint& point : candidates_[at(row.pair)].contacts->points)
+    told.contact.body_a = courses_.members[at(row.contact.body_a)].number;
+    told.contact.body_b = courses_.members[at(row.contact.body_b)].number;
+    result.rows.push_back(told);
+    for (ContactPoint& point : courses_.candidates[at(row.pair)].contacts->points)  // for the next plan's guess
       if (point.key == row.point.key) {
-        point.force = row.impulse / length_;
-        point.lasts = !told.arrives;
+        point.force = row.impulse / length;
+        point.lasts = !row.arrives;
       }
-    rows.push_back(told);
   }
-  return rows;
-}
-
-double PlanMaker::kinematic_work() const {
-  double work = 0;
-  for (const Row& row : rows_)
-    if (row.impulse > 0) work += lcp::kinematic_work(fast_, row.contact, row.impulse);
-  return work;
-}
-
-double PlanMaker::shorten(const world::World& world, int& count) {
-  const auto scaled = [&](int member) {
-    const Member& m = members_[at(member)];
-    if (!m.dynamic) return tracks_[at(member)];
-    const double share = shares_[at(member)];
-    return straight_track(m.state, share * path_[at(member)].velocity, share * path_[at(member)].spin,
-                          tracks_[at(member)].reach, length_);
-  };
-  blocked_.clear();
-  std::vector<char> waiting(candidates_.size(), 1);
-  for (std::size_t i = 0; i < candidates_.size(); ++i) waiting[i] = !candidates_[i].clear;
-  constexpr double kOfFree = 0.9, kLeastShare = 1e-3;
-  for (bool more = true; more;) {
-    more = false;
-    for (std::size_t i = 0; i < candidates_.size(); ++i) {
-      if (!waiting[i]) continue;
-      waiting[i] = 0;
-      Candidate& pair = candidates_[i];
-      double &share_a = shares_[at(pair.a)], &share_b = shares_[at(pair.b)];
-      const double before_a = share_a, before_b = share_b;
-      for (;;) {
-        const PathVerdict verdict = check(world, pair, scaled(pair.a), scaled(pair.b));
-        if (verdict.clear) break;
-        const bool dynamic_a = members_[at(pair.a)].dynamic, dynamic_b = members_[at(pair.b)].dynamic;
-        const double part = kOfFree * verdict.time / length_;
-        // Both take the smaller share first: together they move as they would, but slower.
-        double share = std::min(dynamic_a ? share_a : 1.0, dynamic_b ? share_b : 1.0);
-        if ((!dynamic_a || share_a == share) && (!dynamic_b || share_b == share)) share *= part;
-        if (share < kLeastShare) share = 0;
-        if ((!dynamic_a || share_a == share) && (!dynamic_b || share_b == share)) {  // a kinematic body comes
-          for (const int member : {pair.a, pair.b})
-            if (!members_[at(member)].dynamic && tracks_[at(member)].moves)
-              blocked_.push_back(members_[at(member)].number);
-          break;
-        }
-        if (dynamic_a) share_a = std::min(share_a, share);
-        if (dynamic_b) share_b = std::min(share_b, share);
-      }
-      if (share_a == before_a && share_b == before_b) continue;
-      more = true;
-      for (std::size_t k = 0; k < candidates_.size(); ++k) {
-        const Candidate& other = candidates_[k];
-        if (k != i && ((share_a != before_a && (other.a == pair.a || other.b == pair.a)) ||
-                       (share_b != before_b && (other.a == pair.b || other.b == pair.b))))
-          waiting[k] = 1;
-      }
-    }
+  for (std::size_t i = 0; i < count; ++i) {
+    const RigidBody &path = path_[i], &fast = fast_[i], &end = ends[i];
+    const double moved = length * ((path.velocity - fast.velocity).norm() +
+                                   courses_.tracks[i].reach * (path.spin - fast.spin).norm());
+    result.correction = std::max(result.correction, moved);
+    if (!goes[i] || !courses_.members[i].dynamic) continue;
+    const Twist last = courses_.last[i];
+    result.bodies.push_back(courses_.members[i].number);
+    result.courses.push_back(course_of(courses_.members[i], {path.velocity, path.spin},
+                                       {end.velocity + last.linear, end.spin + last.angular}, length));
+    result.arrivals.push_back({fast.velocity - end.velocity, fast.spin - end.spin});
   }
-  double lost = 0;
-  for (std::size_t i = 0; i < members_.size(); ++i) {
-    if (!members_[i].dynamic || shares_[i] == 1) continue;
-    ++count;
-    lost += (1 - shares_[i]) * members_[i].state.mass * (fast_[i].velocity + last_[i].linear).norm();
-    planned_[i] = 1;
-  }
-  return lost;
+  return result;
 }
 
 }  // namespace fc::resting

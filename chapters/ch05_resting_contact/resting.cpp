@@ -1,12 +1,10 @@
 #include "ch05_resting_contact/resting.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <utility>
 
 #include "ch03_impulse_lcp/unsolved.hpp"
-#include "common/scene_failure.hpp"
+#include "ch05_resting_contact/sleeping.hpp"
 
 namespace fc::resting {
 namespace {
@@ -18,11 +16,29 @@ constexpr int kMostBounces = 64;
 // A plan is halved where its paths are not clear, down to this part of a frame.
 constexpr double kShortest = 1.0 / 4096;
 
+// A plan that would leave less than this part of what is left of the frame takes it all.
+constexpr double kNearlyAll = 0.75;
+
 // A body in contact whose points are slower than this part of the margin in a frame stands still: below it is round-off of
 // impulses that cancel.
 constexpr double kStill = 1e-9;
 
-constexpr double kBeforeEnd = 1e-9;  // of a frame
+// What happens at the frame's end is told a little before it (of a frame): it belongs to this frame, whose velocities it makes.
+constexpr double kBeforeEnd = 1e-9;
+
+double told_at(double now, double dt) { return std::min(now, (1 - kBeforeEnd) * dt); }
+
+double energy_of(const world::World& world, const RigidBody& state) {  // J
+  return state.kinetic_energy() -
+         (world.effects.gravity ? state.mass * world.effects.gravity->dot(state.position) : 0.0);
+}
+
+// It stands still until the frame's end.
+void stop(world::World& world, int kinematic, double now, double dt, world::StepReport& report) {
+  world.carry(kinematic, now, now);
+  world.bodies[static_cast<std::size_t>(kinematic)].held = true;
+  report.lost_time = std::max(report.lost_time, dt - now);
+}
 
 }  // namespace
 
@@ -30,19 +46,19 @@ Resting::Resting(const Scene& scene, world::World& world, double dt, const RestO
     : contacts_(world, envelope_of(scene, world)),
       islands_(contacts_, world.bodies.size()),
       maker_(contacts_),
+      crowd_planner_(contacts_),
       options_(options),
       frame_(dt),
       dt_(dt),
+      crowd_of_(world.bodies.size(), -1),
       meetings_(world.bodies.size(), 0),
       try_length_(world.bodies.size(), std::numeric_limits<double>::infinity()),
-      crowded_(world.bodies.size(), 0),
-      energy_(world.bodies.size(), 0),
-      still_(world.bodies.size(), 0) {
+      energy_(world.bodies.size(), 0) {
   const SolverSpec usual;
   const SolverSpec& solver = world.solver;
   if (solver.method != usual.method || solver.limit != usual.limit || solver.tolerance != usual.tolerance) {
-    options_.small.chosen = solver;
-    options_.pile = std::numeric_limits<int>::max();  // piles are solved by sweeps of their own
+    options_.solver.chosen = solver;
+    options_.most_work = std::numeric_limits<double>::infinity();  // crowds are solved by sweeps of their own
   }
   world.reserve = 0.5 * envelope();
 }
@@ -51,18 +67,15 @@ RestReport Resting::step(world::World& world, const world::Listeners& listeners)
   report_ = {};
   contacts_.next_frame();
   std::fill(meetings_.begin(), meetings_.end(), 0);
+  records_.clear();
   const std::int64_t searched = contacts_.searched();
-  rests_.clear();
-  rest_keys_.clear();
-  rest_of_.clear();
-  const world::StepReport report = world::step_with(*this, world, frame_, listeners);
+  world::StepReport report = world::step_with(*this, world, frame_, listeners);
+  if (world.effects.sleep) fall_asleep(world, islands_, frame_, report);
+  report.min_gap = std::min(report.min_gap, report_.smallest_gap);
+  report.max_penetration = std::max(report.max_penetration, -std::min(0.0, report_.smallest_gap));
   report_.step = report;
-  report_.step.min_gap = std::min(report.min_gap, report_.smallest_gap);
-  report_.step.max_penetration = std::max(report.max_penetration, -std::min(0.0, report_.smallest_gap));
   report_.searched = contacts_.searched() - searched;
-  report_.resting = static_cast<int>(rests_.size());
-  if (listeners.impact)
-    for (const world::ImpactRecord& record : rests_) listeners.impact(record);
+  if (listeners.impact) records_.tell(listeners.impact);
   return report_;
 }
 
@@ -71,23 +84,16 @@ std::vector<int> Resting::begin(world::World& world, double dt, world::StepRepor
   dt_ = dt;
   plans_.clear();
   free_plans_.clear();
-  std::vector<int> bodies;
-  for (int body = 0; body < static_cast<int>(world.bodies.size()); ++body)
-    if (world.yields(body) && !world.bodies[at(body)].asleep) bodies.push_back(body);
-  find_crowds(world, bodies);
-  return go_on(world, bodies, 0, report, listeners);
-}
-
-void Resting::find_crowds(const world::World& world, const std::vector<int>& bodies) {
-  std::fill(crowded_.begin(), crowded_.end(), 0);
-  islands_.begin(0);
-  for (const int body : bodies) {
-    if (islands_.is_in_island(body)) continue;
-    const Island island = islands_.grow(world, body, crowded_, 0);
-    if (island.points() <= options_.crowd) continue;
-    for (const Member& member : island.members)
-      if (member.dynamic) crowded_[at(member.number)] = 1;
+  crowds_.clear();
+  std::fill(crowd_of_.begin(), crowd_of_.end(), -1);
+  for (std::vector<int>& bodies : find_crowds(world, contacts_, dt, options_.most_work)) {
+    for (const int body : bodies) crowd_of_[at(body)] = static_cast<int>(crowds_.size());
+    crowds_.push_back({std::move(bodies)});
   }
+  Instant instant{world, 0, report, listeners, {}, {}};
+  for (int body = 0; body < static_cast<int>(world.bodies.size()); ++body)
+    if (world.yields(body) && !world.bodies[at(body)].asleep) instant.bodies.push_back(body);
+  return go_on(std::move(instant));
 }
 
 double Resting::next_end() const {
@@ -99,274 +105,246 @@ double Resting::next_end() const {
 
 std::vector<int> Resting::end_plans(world::World& world, double now, world::StepReport& report,
                                     const world::Listeners& listeners) {
-  std::vector<int> bodies;
+  Instant instant{world, now, report, listeners, {}, {}};
   for (const Running& plan : plans_)
-    if (plan.runs && plan.end <= now) bodies.insert(bodies.end(), plan.bodies.begin(), plan.bodies.end());
-  return go_on(world, bodies, now, report, listeners);
+    if (plan.runs && plan.end <= now)
+      instant.bodies.insert(instant.bodies.end(), plan.what.bodies.begin(), plan.what.bodies.end());
+  return go_on(std::move(instant));
 }
 
 std::vector<int> Resting::meet(world::World& world, int a, int b, double now, world::StepReport& report,
                                const world::Listeners& listeners) {
-  ++meetings_[at(a)];
-  ++meetings_[at(b)];
-  std::vector<int> bodies;
-  for (const int body : {a, b})
-    if (world.yields(body)) bodies.push_back(body);
-  return go_on(world, bodies, now, report, listeners);
+  Instant instant{world, now, report, listeners, {}, {}};
+  for (const int body : {a, b}) {
+    ++meetings_[at(body)];
+    if (world.yields(body)) instant.bodies.push_back(body);
+  }
+  return go_on(std::move(instant));
 }
 
-// Ends the plan of a body, if it has one: all of its bodies stand where they are now, with the velocities that they have, and
-// are added to the list. Rows have done their part.
-void Resting::finish_plan_of(world::World& world, int body, double now, std::vector<int>& bodies,
-                             world::StepReport& report) {
-  const int number = world.bodies[at(body)].plan.number;
-  if (number < 0) return;
-  Running& plan = plans_[at(number)];
-  const double share = (now - plan.start) / (plan.end - plan.start);
-  const bool whole = now >= plan.end;
-  for (std::size_t i = 0; i < plan.bodies.size(); ++i) {
-    const int member = plan.bodies[i];
-    world.carry(member, now, now);
-    world.bodies[at(member)].plan = {};
-    if (whole) {
-      world.bodies[at(member)].state.velocity += plan.arrivals[i].linear;
-      world.bodies[at(member)].state.spin += plan.arrivals[i].angular;
+// ANCHOR: instant
+// These bodies, and all that they are in contact with, directly or over others.
+std::vector<int> Resting::go_on(Instant instant) {
+  islands_.begin(instant.now);
+  for (Crowd& crowd : crowds_) crowd.done = false;
+  for (std::size_t i = 0; i < instant.bodies.size(); ++i) {  // the list grows
+    const int body = instant.bodies[i];
+    if (crowd_of_[at(body)] < 0) {
+      if (islands_.is_in_island(body)) continue;
+      Island island = islands_.grow(instant.world, body, crowd_of_);
+      join_crowd(island, event_work(0, island.points()) > options_.most_work);
+      if (crowd_of_[at(body)] < 0) go_on(instant, island);
     }
-    if (member != body) bodies.push_back(member);
+    const int crowd = crowd_of_[at(body)];
+    if (crowd >= 0 && !crowds_[at(crowd)].done) go_on(instant, crowds_[at(crowd)]);
   }
-  for (const PlannedRow& row : plan.rows) {
-    if (!(share > 0) || (row.arrives && !whole)) continue;
-    report_rest({row.arrives ? told_at(now) : plan.start, row.contact,
-                 {0, 0, row.before, row.after, share * row.impulse}, world::ContactKind::rest},
-                row.key);
+  if (instant.now >= dt_) instant.changed.clear();  // the frame is over
+  return std::move(instant.changed);
+}
+
+// Plans end, the instant's impact law acts, and new plans begin; an island that cannot be followed becomes a crowd.
+void Resting::go_on(Instant& instant, Island& island) {
+  const double work = instant.report.kinematic_work, before = stand(instant, island.members);
+  wake(instant.world, island.members, instant.report);
+  report_.largest_island = std::max(report_.largest_island, island.points());
+  for (const IslandPair& pair : island.pairs)
+    report_.smallest_gap = std::min(report_.smallest_gap, pair.contacts->gap);
+  const bool solved = island.pairs.empty() || resolve(instant, island);
+  set_courses(instant, island.members, before, work);
+  const bool goes = instant.now >= dt_ || island.pairs.empty() || (solved && plan(instant, island));
+  if (!goes) join_crowd(island, true);
+}
+
+// A crowd has no impacts of its own, only plans: two in a frame.
+void Resting::go_on(Instant& instant, Crowd& crowd) {
+  crowd.done = true;
+  std::vector<Member> members;
+  for (const int body : crowd.bodies) members.push_back({body, {}, true});
+  const double work = instant.report.kinematic_work, before = stand(instant, members);
+  wake(instant.world, members, instant.report);
+  set_courses(instant, members, before, work);
+  if (instant.now >= dt_) return;
+  const double end = instant.now < (0.5 - kShortest) * dt_ ? 0.5 * dt_ : dt_;
+  CrowdOptions options;
+  options.rest_speed = envelope() / dt_;
+  options.told = static_cast<bool>(instant.listeners.impact);
+  const auto make = [&] { return crowd_planner_.make(instant.world, members, instant.now, end - instant.now, options); };
+  Planned planned = make();
+  if (!crowd_planner_.blocked().empty()) {
+    for (const int body : crowd_planner_.blocked()) stop(instant.world, body, instant.now, dt_, instant.report);
+    planned = make();
   }
-  report.kinematic_work += share * plan.work;
+  report_.checked += crowd_planner_.checked();
+  report_.sweeps += crowd_planner_.sweeps();
+  report_.shortened += crowd_planner_.shortened();
+  report_.lost_impulse += crowd_planner_.lost_impulse();
+  report_.largest_island = std::max(report_.largest_island, crowd_planner_.rows());
+  report_.smallest_gap = std::min(report_.smallest_gap, crowd_planner_.smallest_gap());
+  instant.report.lcp_residual = std::max(instant.report.lcp_residual, crowd_planner_.residual());
+  instant.report.contacts += crowd_planner_.rows();
+  ++instant.report.solves;
+  start(instant, std::move(planned), end);
+}
+// ANCHOR_END: instant
+
+// All stand where they are now; the plans that moved them end. Returns the energy (J) with which they began their courses.
+double Resting::stand(Instant& instant, std::span<Member> members) {
+  double energy = 0;
+  for (Member& member : members) {
+    if (!member.dynamic) continue;
+    world::Body& body = instant.world.bodies[at(member.number)];
+    if (body.plan.number >= 0) end_plan(instant, body.plan.number);
+    instant.world.carry(member.number, instant.now, instant.now);
+    member.state = body.state;
+    instant.changed.push_back(member.number);
+    energy += energy_[at(member.number)];
+  }
+  return energy;
+}
+
+void Resting::set_courses(Instant& instant, std::span<const Member> members, double before, double work) {
+  double gained = work - instant.report.kinematic_work - before;
+  for (const Member& member : members) {
+    if (!member.dynamic) continue;
+    instant.world.set_course(member.number, member.state, instant.now);
+    energy_[at(member.number)] = energy_of(instant.world, member.state);
+    gained += energy_[at(member.number)];
+  }
+  if (instant.now > 0) report_.correction_energy += std::max(0.0, gained);
+}
+
+// An island that a crowd has got into belongs to it; else it becomes one if it `must`, or if it has events without end.
+void Resting::join_crowd(const Island& island, bool must) {
+  int crowd = -1;
+  for (const Member& member : island.members) {
+    if (!member.dynamic) continue;
+    crowd = std::max(crowd, crowd_of_[at(member.number)]);
+    must = must || meetings_[at(member.number)] > options_.most_meetings;
+  }
+  if (crowd < 0 && !must) return;
+  if (crowd < 0) {
+    crowd = static_cast<int>(crowds_.size());
+    crowds_.emplace_back();
+  }
+  std::vector<int>& bodies = crowds_[at(crowd)].bodies;
+  for (const Member& member : island.members) {
+    const int other = member.dynamic ? crowd_of_[at(member.number)] : crowd;
+    if (other == crowd) continue;
+    std::vector<int> joining = {member.number};
+    if (other >= 0) joining = std::exchange(crowds_[at(other)].bodies, {});
+    for (const int body : joining) crowd_of_[at(body)] = crowd;
+    bodies.insert(bodies.end(), joining.begin(), joining.end());
+  }
+  std::sort(bodies.begin(), bodies.end());
+  crowds_[at(crowd)].done = false;
+}
+
+// Its bodies stand where they are now, with the velocities that they have; what its rows did until now is told.
+void Resting::end_plan(Instant& instant, int number) {
+  Running& plan = plans_[at(number)];
+  const double share = (instant.now - plan.start) / (plan.end - plan.start);
+  const bool whole = instant.now >= plan.end;
+  for (std::size_t i = 0; i < plan.what.bodies.size(); ++i) {
+    const int member = plan.what.bodies[i];
+    world::Body& body = instant.world.bodies[at(member)];
+    instant.world.carry(member, instant.now, instant.now);
+    body.plan = {};
+    if (whole) {
+      body.state.velocity += plan.what.arrivals[i].linear;
+      body.state.spin += plan.what.arrivals[i].angular;
+    }
+    instant.bodies.push_back(member);
+  }
+  for (const PlannedRow& row : plan.what.rows) {
+    const double end = told_at(instant.now, dt_);
+    if (share > 0 && (whole || !row.arrives))
+      records_.add({row.arrives ? end : plan.start,
+                    row.contact,
+                    {0, 0, row.before, row.after, share * row.impulse},
+                    world::ContactKind::rest},
+                   row.key);
+    if (!whole || !(row.back > 0)) continue;
+    ++instant.report.impacts;
+    instant.listeners.impact({end, row.contact, {0, 0, row.before, row.after, row.back}, world::ContactKind::impact});
+  }
+  instant.report.kinematic_work += share * plan.what.kinematic_work;
   plan.runs = false;
   free_plans_.push_back(number);
 }
 
-// What is left of a velocity in contact that does not move the body.
-void Resting::come_to_rest(const world::World& world, Member& member) const {
-  const double reach = world.shapes[at(world.bodies[at(member.number)].shape)].reach;
-  const double speed = member.state.velocity.norm() + reach * member.state.spin.norm();
-  if (dt_ * speed < kStill * envelope()) member.state.velocity = member.state.spin = Vec3::Zero();
-}
-
-double Resting::energy_of(const world::World& world, int body) const {
-  const RigidBody& state = world.bodies[at(body)].state;
-  return state.kinetic_energy() -
-         (world.effects.gravity ? state.mass * world.effects.gravity->dot(state.position) : 0.0);
-}
-
-// These bodies, and all whom they are in contact with: their plans end, the instant's impact law acts, and they get new plans
-// until the frame's end, or fly.
-std::vector<int> Resting::go_on(world::World& world, std::vector<int> bodies, double now,
-                                world::StepReport& report, const world::Listeners& listeners) {
-  islands_.begin(now);
-  std::vector<int> changed;
-  for (std::size_t i = 0; i < bodies.size(); ++i) {  // the list grows
-    const int body = bodies[i];
-    if (islands_.is_in_island(body)) continue;
-    Island island = islands_.grow(world, body, crowded_, dt_ - now);
-    double before = 0;  // J
-    const double work = report.kinematic_work;
-    for (Member& member : island.members) {
-      if (!member.dynamic) continue;
-      finish_plan_of(world, member.number, now, bodies, report);
-      world.carry(member.number, now, now);
-      member.state = world.bodies[at(member.number)].state;
-      changed.push_back(member.number);
-      before += energy_[at(member.number)];
-    }
-    wake(world, island, report);
-    for (const IslandPair& pair : island.pairs)
-      report_.smallest_gap = std::min(report_.smallest_gap, pair.contacts->gap);
-    report_.largest_island = std::max(report_.largest_island, island.points());
-    resolve(world, island, now, report, listeners);
-    double gained = work - report.kinematic_work - before;
-    for (Member& member : island.members) {
-      if (!member.dynamic) continue;
-      if (!island.pairs.empty()) come_to_rest(world, member);
-      world.set_course(member.number, member.state, now);
-      energy_[at(member.number)] = energy_of(world, member.number);
-      gained += energy_[at(member.number)];
-    }
-    if (now > 0) report_.correction_energy += std::max(0.0, gained);
-    if (now < dt_) plan(world, island, now, report);
-    if (now >= dt_ && world.effects.sleep) fall_asleep(world, island, report);
-  }
-  if (now >= dt_) changed.clear();
-  return changed;
-}
-
-PlanOptions Resting::options_for(const Island& island) const {
-  PlanOptions options;
-  options.solver = options_.small;
-  options.rest_speed = envelope() / dt_;
-  options.exact = island.points() <= options_.crowd;
-  if (!options.exact) {
-    options.most_rounds = 3;
-    options.closed = 0.01;
-  }
-  if (island.points() > options_.pile) {
-    options.solver.most_dense_rows = 0;
-    options.solver.most_sweeps = 40;
-    options.solver.residual = 1e-3;
-    options.solver.accepted = std::numeric_limits<double>::infinity();
-    options.most_rounds = 1;
-    options.closed = 0.05;
-  }
-  return options;
-}
-
-// A contact that lasts is reported once in a frame, if its normal stays: what its plan does, and what the instant at the
-// plan's end does.
-void Resting::report_rest(const world::ImpactRecord& record, std::uint64_t key) {
-  constexpr double kSameNormal = 1e-14;
-  const auto low = static_cast<std::uint64_t>(record.contact.body_a), high = static_cast<std::uint64_t>(record.contact.body_b);
-  const auto [at_pair, first] = rest_of_.try_emplace(low << 32 | high, rests_.size());
-  if (!first)
-    for (std::size_t i = at_pair->second; i < rests_.size(); ++i) {
-      world::ImpactRecord& known = rests_[i];
-      if (rest_keys_[i] != key || known.contact.body_a != record.contact.body_a ||
-          known.contact.body_b != record.contact.body_b ||
-          (known.contact.normal - record.contact.normal).norm() > kSameNormal)
-        continue;
-      known.impulse.impulse += record.impulse.impulse;
-      known.impulse.v_after = record.impulse.v_after;
-      return;
-    }
-  rests_.push_back(record);
-  rest_keys_.push_back(key);
-}
-
-// What happens at the frame's end is told a little before it: it belongs to this frame, whose velocities it makes.
-double Resting::told_at(double now) const { return std::min(now, (1 - kBeforeEnd) * dt_); }
-
-void Resting::resolve(world::World& world, Island& island, double now, world::StepReport& report,
-                      const world::Listeners& listeners) {
-  if (island.pairs.empty()) return;
+// The instant's impact law; false if it could not be solved.
+bool Resting::resolve(Instant& instant, Island& island) {
   InstantOptions options;
   options.rest_speed = envelope() / dt_;
-  options.time = told_at(now);
+  options.time = told_at(instant.now, dt_);
   options.guess = 0.5 * dt_;
   options.bounces = [&](int body) { return meetings_[at(body)] < kMostBounces; };
-  options.solver = options_for(island).solver;
-  InstantResult result = resolve_instant(world, island, envelope(), solver_, options);
-  if (!result.solved && stop_kinematic(world, island, now, report))
-    result = resolve_instant(world, island, envelope(), solver_, options);
-  if (!result.solved && options_.small.chosen)
-    throw lcp::unsolved(world.solver, result.status, result.sweeps, result.residual);
-  if (!result.solved)
-    throw SceneFailure(fmt::format("{} contacts that belong together could not be solved: a residual of {:.2g} was left; "
-                                   "take less unequal masses",
-                                   result.contacts, result.residual),
-                       "envelope");
+  options.solver = options_.solver;
+  const InstantResult result = resolve_instant(instant.world, island, envelope(), solver_, options);
+  if (!result.solved && options_.solver.chosen)
+    throw lcp::unsolved(instant.world.solver, result.status, result.steps, result.residual);
+  if (!result.solved) return false;
+  world::StepReport& report = instant.report;
   report.contacts += result.contacts;
   report.lcp_rows += result.rows;
   report.solves += result.solves;
   report.lcp_residual = std::max(report.lcp_residual, result.residual);
   report.kinematic_work += result.kinematic_work;
   report.energy_gain = std::max(report.energy_gain, result.energy_gain);
-  report_.sweeps += result.sweeps;
   for (std::size_t i = 0; i < result.records.size(); ++i) {
     const world::ImpactRecord& record = result.records[i];
     const bool impact = record.kind == world::ContactKind::impact;
-    if (impact) ++report.impacts;
-    if (!impact)
-      report_rest(record, result.keys[i]);
-    else if (listeners.impact)
-      listeners.impact(record);
+    report.impacts += impact;
+    if (!impact) records_.add(record, result.keys[i]);
+    if (impact && instant.listeners.impact) instant.listeners.impact(record);
   }
-  if (result.impact && listeners.instant) {
+  for (Member& member : island.members) {  // what is left of a velocity in contact that does not move the body
+    const double reach = instant.world.model_of(member.number).reach;
+    const double speed = member.state.velocity.norm() + reach * member.state.spin.norm();
+    if (member.dynamic && dt_ * speed < kStill * envelope()) member.state.velocity = member.state.spin = Vec3::Zero();
+  }
+  if (result.impact && instant.listeners.instant) {
     for (const Member& member : island.members)
-      if (member.dynamic) world.set_course(member.number, member.state, now);
-    listeners.instant(world, now);
+      if (member.dynamic) instant.world.set_course(member.number, member.state, instant.now);
+    instant.listeners.instant(instant.world, instant.now);
   }
+  return true;
 }
 
-// Kinematic bodies of the island that are driven into what cannot give way stand still until the frame's end; whether there
-// are any.
-bool Resting::stop_kinematic(world::World& world, Island& island, double now, world::StepReport& report) {
-  bool any = false;
-  for (Member& member : island.members) {
-    if (!world.carries(member.number)) continue;
-    stop(world, member.number, now, report);
-    member.state.velocity = member.state.spin = Vec3::Zero();
-    any = true;
-  }
-  return any;
-}
-
-void Resting::stop(world::World& world, int kinematic, double now, world::StepReport& report) {
-  world.carry(kinematic, now, now);
-  world.bodies[at(kinematic)].held = true;
-  report.lost_time = std::max(report.lost_time, dt_ - now);
-}
-
-// A plan for the bodies of the island that are in contact, as long as their paths can be proved, at most to the frame's end.
-void Resting::plan(world::World& world, Island& island, double now, world::StepReport& report) {
-  if (island.pairs.empty()) return;
-  const PlanOptions options = options_for(island);
+// A plan for the bodies of the island that are in contact, as long as their paths can be proved, at most to the frame's end;
+// false if there is none.
+bool Resting::plan(Instant& instant, Island& island) {
   for (const IslandPair& pair : island.pairs)
     for (ContactPoint& point : pair.contacts->points) point.lasts = false;
-  double length = dt_ - now;
+  const double left = dt_ - instant.now;
+  double length = left;
   for (const Member& member : island.members)
     if (member.dynamic) length = std::min(length, try_length_[at(member.number)]);
-  if (length > 0.75 * (dt_ - now)) length = dt_ - now;
-  const bool pile = island.points() > options_.crowd;
-  PlanMaker::Result result;
-  bool stopped = false;
+  if (length > kNearlyAll * left) length = left;
+  using Result = PlanMaker::Result;
   for (;;) {
-    result = maker_.make(world, island, now, length, options);
+    const Result result = maker_.make(instant.world, island, instant.now, length, {options_.solver, envelope() / dt_});
     report_.checked += maker_.checked();
-    report_.sweeps += maker_.sweeps();
-    report.solves += maker_.solves();
-    report.lcp_residual = std::max(report.lcp_residual, maker_.worst_residual());
-    if (result == PlanMaker::Result::proved) break;
-    if (result == PlanMaker::Result::meets && maker_.meeting() > kShortest * dt_) {
-      length = std::min(maker_.meeting(), 0.999 * length);
-      continue;
-    }
-    if (result == PlanMaker::Result::unsolved && !stopped && stop_kinematic(world, island, now, report)) {
-      stopped = true;
-      continue;
-    }
-    if (pile && result == PlanMaker::Result::unproved) break;
-    if (length < kShortest * dt_) break;
-    length *= 0.5;
-  }
-  if (result == PlanMaker::Result::unsolved && options_.small.chosen)
-    throw lcp::unsolved(world.solver, maker_.status(), maker_.sweeps(), maker_.worst_residual());
-  if (result == PlanMaker::Result::unsolved)
-    throw SceneFailure(fmt::format("{} resting contacts that belong together could not be solved: a residual of {:.2g} was "
-                                   "left; shorten step.dt, or take less unequal masses",
-                                   island.points(), maker_.worst_residual()),
-                       "envelope");
-  if (result == PlanMaker::Result::unproved || result == PlanMaker::Result::meets) {
-    int shortened = 0;
-    double lost = maker_.shorten(world, shortened);
-    const std::vector<int> blocked = maker_.blocked();
-    if (!blocked.empty()) {  // they stand still until the frame's end
-      for (const int body : blocked) {
-        stop(world, body, now, report);
-        for (Member& member : island.members)
-          if (member.number == body) member.state.velocity = member.state.spin = Vec3::Zero();
-      }
-      shortened = 0;
-      lost = 0;
-      if (maker_.make(world, island, now, length, options) != PlanMaker::Result::proved)
-        lost = maker_.shorten(world, shortened);
-    }
-    report_.shortened += shortened;
-    report_.lost_impulse += lost;
+    instant.report.solves += maker_.solves();
+    instant.report.lcp_residual = std::max(instant.report.lcp_residual, maker_.worst_residual());
+    if (result == Result::proved) break;
+    if (result == Result::unsolved && options_.solver.chosen)
+      throw lcp::unsolved(instant.world.solver, maker_.status(), 0, maker_.worst_residual());
+    const bool meets = result == Result::meets && maker_.meeting() > kShortest * dt_;
+    if (result == Result::unsolved || (!meets && length < kShortest * dt_)) return false;
+    length = meets ? std::min(maker_.meeting(), 0.999 * length) : 0.5 * length;
   }
   for (const Member& member : island.members)
     if (member.dynamic) try_length_[at(member.number)] = 2 * length;
-  start_plan(world, island, now, length);
+  start(instant, maker_.take(), length == left ? dt_ : instant.now + length);
+  return true;
 }
 
-void Resting::start_plan(world::World& world, const Island& island, double now, double length) {
+void Resting::start(Instant& instant, Planned&& planned, double end) {
+  ++report_.plans;
+  report_.resting += planned.pushing;
+  report_.correction = std::max(report_.correction, planned.correction);
+  if (planned.bodies.empty()) return;
   int number = static_cast<int>(plans_.size());
   if (free_plans_.empty()) {
     plans_.emplace_back();
@@ -374,72 +352,14 @@ void Resting::start_plan(world::World& world, const Island& island, double now, 
     number = free_plans_.back();
     free_plans_.pop_back();
   }
-  Running& plan = plans_[at(number)];
-  plan.runs = true;
-  plan.start = now;
-  plan.end = length == dt_ - now ? dt_ : now + length;
-  plan.bodies.clear();
-  plan.arrivals.clear();
-  for (int i = 0; i < static_cast<int>(island.members.size()); ++i) {
-    if (!island.members[at(i)].dynamic || !maker_.is_planned(i)) continue;
-    world::Body& body = world.bodies[at(island.members[at(i)].number)];
-    body.plan = maker_.plan_of(i);
-    const double reach = world.shapes[at(body.shape)].reach;
-    const double path = dt_ * (body.plan.linear.norm() + reach * body.plan.angular.norm());
-    if (path < kStill * envelope()) body.plan.linear = body.plan.angular = Vec3::Zero();
+  for (std::size_t i = 0; i < planned.bodies.size(); ++i) {
+    world::Body& body = instant.world.bodies[at(planned.bodies[i])];
+    body.plan = planned.courses[i];
     body.plan.number = number;
-    plan.bodies.push_back(island.members[at(i)].number);
-    plan.arrivals.push_back(maker_.arrival_of(i));
+    const double path = dt_ * (body.plan.linear.norm() + instant.world.model_of(planned.bodies[i]).reach * body.plan.angular.norm());
+    if (path < kStill * envelope()) body.plan.linear = body.plan.angular = Vec3::Zero();
   }
-  plan.rows = maker_.rows();
-  ++report_.plans;
-  report_.correction = std::max(report_.correction, maker_.largest_correction());
-  plan.work = maker_.kinematic_work();
-  if (plan.bodies.empty()) {
-    plan.runs = false;
-    free_plans_.push_back(number);
-  }
-}
-
-// An island that somebody awake touches is awake.
-void Resting::wake(world::World& world, Island& island, world::StepReport& report) {
-  if (!world.effects.sleep) return;
-  for (const Member& member : island.members) {
-    world::Body& body = world.bodies[at(member.number)];
-    if (!member.dynamic || !body.asleep) continue;
-    body.asleep = false;
-    still_[at(member.number)] = 0;
-    ++report.wakes;
-  }
-}
-
-// At a frame's end: an island that lies on what does not move, and whose bodies have all been slow for long enough.
-void Resting::fall_asleep(world::World& world, const Island& island, world::StepReport& report) {
-  const SleepSpec& sleep = *world.effects.sleep;
-  bool lies = false, rests = true;
-  for (const Member& member : island.members) {
-    const world::Body& body = world.bodies[at(member.number)];
-    if (!member.dynamic) {
-      lies = true;
-      rests = rests && !world.carries(member.number);
-      continue;
-    }
-    const double speed =
-        body.state.velocity.norm() + world.shapes[at(body.shape)].reach * body.state.spin.norm();
-    double& still = still_[at(member.number)];
-    still = speed <= sleep.speed ? still + dt_ : 0;
-    rests = rests && still >= sleep.after;
-  }
-  if (!lies || !rests) return;
-  for (const Member& member : island.members) {
-    if (!member.dynamic) continue;
-    world::Body& body = world.bodies[at(member.number)];
-    report.slept_energy += body.state.kinetic_energy();
-    ++report.falls_asleep;
-    body.state.velocity = body.state.spin = Vec3::Zero();
-    body.free.reset();
-    body.asleep = true;
-  }
+  plans_[at(number)] = {true, instant.now, end, std::move(planned)};
 }
 
 }  // namespace fc::resting

@@ -2,35 +2,35 @@
 #pragma once
 
 #include <limits>
-#include <unordered_map>
 
+#include "ch05_resting_contact/crowd.hpp"
 #include "ch05_resting_contact/envelope.hpp"
 #include "ch05_resting_contact/impact_law.hpp"
-#include "ch05_resting_contact/plan.hpp"
+#include "ch05_resting_contact/rest_records.hpp"
 
 namespace fc::resting {
 
 // What a frame did beyond chapter 4's report.
 struct RestReport {
   world::StepReport step;
-  int resting = 0;                  // contacts that last, and got an impulse
+  int resting = 0;             // impulses of contacts that last: one for each contact and plan
   int plans = 0;
-  std::int64_t searched = 0;        // pairs whose contacts were searched anew
-  std::int64_t checked = 0;         // paths of pairs that were to be proved
+  std::int64_t searched = 0;   // pairs whose contacts were searched anew
+  std::int64_t checked = 0;    // paths of pairs that were to be proved
   double smallest_gap = std::numeric_limits<double>::infinity();  // m, of bodies in contact, certified
-  int largest_island = 0;           // contact points
-  int sweeps = 0;                   // of Gauss-Seidel
-  double correction = 0;            // m, the largest that a body's point was moved to put gaps right
-  double correction_energy = 0;     // J, that bodies in contact gained beyond what kinematic bodies did: by corrections of
-                                    // positions, and by the plans' error, which is of second order
-  int shortened = 0;                // bodies of piles whose paths were shortened
-  double lost_impulse = 0;          // N s, the momentum that this took
+  int largest_island = 0;      // contact points
+  int sweeps = 0;              // of Gauss-Seidel, in crowds
+  double correction = 0;       // m, the largest that a body's point was moved to put gaps right
+  double correction_energy = 0;  // J, that bodies in contact gained beyond what kinematic bodies did: by corrections of
+                                 // positions, and by the plans' error, which is of second order
+  int shortened = 0;             // bodies of crowds whose paths were shortened
+  double lost_impulse = 0;       // N s, the momentum that this took
 };
 
 struct RestOptions {
-  int crowd = 100;  // contact points of one island, from which on what arrives in it is no event: see IslandFinder
-  int pile = 400;   // and from which on it is a pile: solved by sweeps, its paths shortened
-  IslandOptions small = {.most_dense_rows = 1000, .accepted = 1e-3};
+  double most_work = 4e5;  // see event_work(): more makes a crowd
+  int most_meetings = 256;  // and so does a body that meets others more often in one frame
+  IslandOptions solver;
 };
 
 class Resting : public world::Planner {
@@ -54,48 +54,49 @@ class Resting : public world::Planner {
   struct Running {  // a plan
     bool runs = false;
     double start = 0, end = 0;
+    Planned what;
+  };
+  struct Crowd {
     std::vector<int> bodies;
-    std::vector<Twist> arrivals;  // of each: what its velocities get if the plan comes to its end
-    std::vector<PlannedRow> rows;
-    double work = 0;  // J, that kinematic bodies do
+    bool done = false;  // in this instant
+  };
+  // An instant, and what is to be told of it.
+  struct Instant {
+    world::World& world;
+    double now;
+    world::StepReport& report;
+    const world::Listeners& listeners;
+    std::vector<int> bodies;   // whose plans end; the list grows
+    std::vector<int> changed;  // that have got another course
   };
   static std::size_t at(int index) { return static_cast<std::size_t>(index); }
-  void finish_plan_of(world::World& world, int body, double now, std::vector<int>& bodies,
-                      world::StepReport& report);
-  std::vector<int> go_on(world::World& world, std::vector<int> bodies, double now, world::StepReport& report,
-                         const world::Listeners& listeners);
-  double told_at(double now) const;
-  void report_rest(const world::ImpactRecord& record, std::uint64_t key);
-  void resolve(world::World& world, Island& island, double now, world::StepReport& report,
-               const world::Listeners& listeners);
-  void plan(world::World& world, Island& island, double now, world::StepReport& report);
-  void start_plan(world::World& world, const Island& island, double now, double length);
-  bool stop_kinematic(world::World& world, Island& island, double now, world::StepReport& report);
-  void stop(world::World& world, int kinematic, double now, world::StepReport& report);
-  void find_crowds(const world::World& world, const std::vector<int>& bodies);
-  PlanOptions options_for(const Island& island) const;
-  void come_to_rest(const world::World& world, Member& member) const;
-  double energy_of(const world::World& world, int body) const;
-  void wake(world::World& world, Island& island, world::StepReport& report);
-  void fall_asleep(world::World& world, const Island& island, world::StepReport& report);
+  std::vector<int> go_on(Instant instant);
+  void go_on(Instant& instant, Island& island);
+  void go_on(Instant& instant, Crowd& crowd);
+  double stand(Instant& instant, std::span<Member> members);
+  void set_courses(Instant& instant, std::span<const Member> members, double before, double work);
+  void join_crowd(const Island& island, bool must);
+  void end_plan(Instant& instant, int number);
+  bool resolve(Instant& instant, Island& island);
+  bool plan(Instant& instant, Island& island);
+  void start(Instant& instant, Planned&& planned, double end);
 
   Contacts contacts_;
   IslandFinder islands_;
   PlanMaker maker_;
+  CrowdPlanner crowd_planner_;
   IslandSolver solver_;
   RestOptions options_;
   double frame_, dt_;  // s, of a frame, and of the part of it at hand
   std::vector<Running> plans_;
   std::vector<int> free_plans_;
-  std::vector<int> meetings_;      // of each body, in this frame
+  std::vector<Crowd> crowds_;       // of this frame
+  std::vector<int> crowd_of_;       // of each body, or -1
+  std::vector<int> meetings_;       // of each body, in this frame
   std::vector<double> try_length_;  // s, of each body's next plan at most
-  std::vector<char> crowded_;      // of each body, in this frame
-  std::vector<double> energy_;     // J, of each body when it got its course, in this frame
-  std::vector<double> still_;      // s, for how long it has been carried, and slow
+  std::vector<double> energy_;      // J, of each body when it got its course, in this frame
   RestReport report_;
-  std::vector<world::ImpactRecord> rests_;  // of contacts that last, in this frame
-  std::vector<std::uint64_t> rest_keys_;    // their points' keys
-  std::unordered_map<std::uint64_t, std::size_t> rest_of_;  // the first of them of two bodies
+  RestRecords records_;
 };
 
 }  // namespace fc::resting

@@ -1,0 +1,59 @@
+#include "ch05_resting_contact/sleeping.hpp"
+
+namespace fc::resting {
+namespace {
+
+world::Body& body_of(world::World& world, const Member& member) {
+  return world.bodies[static_cast<std::size_t>(member.number)];
+}
+
+// Whether the island may sleep; counts for how long its bodies have been slow.
+bool rests(world::World& world, const Island& island, double dt) {
+  bool lies = false, all = true;
+  for (const Member& member : island.members) {
+    world::Body& body = body_of(world, member);
+    if (!member.dynamic) {
+      lies = true;
+      all = all && !world.carries(member.number);
+      continue;
+    }
+    const double reach = world.shapes[static_cast<std::size_t>(body.shape)].reach;
+    const double speed = body.state.velocity.norm() + reach * body.state.spin.norm();
+    body.still = speed <= world.effects.sleep->speed ? body.still + dt : 0;
+    all = all && body.still >= world.effects.sleep->after;
+  }
+  return lies && all;
+}
+
+}  // namespace
+
+void wake(world::World& world, std::span<const Member> members, world::StepReport& report) {
+  for (const Member& member : members) {
+    world::Body& body = body_of(world, member);
+    if (!member.dynamic || !body.asleep) continue;
+    body.asleep = false;
+    body.still = 0;
+    ++report.wakes;
+  }
+}
+
+void fall_asleep(world::World& world, IslandFinder& islands, double dt, world::StepReport& report) {
+  const std::vector<int> no_crowds(world.bodies.size(), -1);
+  islands.begin(0);
+  for (int i = 0; i < static_cast<int>(world.bodies.size()); ++i) {
+    if (!world.yields(i) || world.bodies[static_cast<std::size_t>(i)].asleep || islands.is_in_island(i)) continue;
+    const Island island = islands.grow(world, i, no_crowds);
+    if (!rests(world, island, dt)) continue;
+    for (const Member& member : island.members) {
+      if (!member.dynamic) continue;
+      world::Body& body = body_of(world, member);
+      report.slept_energy += body.state.kinetic_energy();
+      ++report.falls_asleep;
+      body.state.velocity = body.state.spin = Vec3::Zero();
+      body.free.reset();
+      body.asleep = true;
+    }
+  }
+}
+
+}  // namespace fc::resting
