@@ -148,12 +148,12 @@ class Stepper {
       boxes.push_back(world_.swept_bounds(body, now, dt_));
       schedule_.replace(body, boxes.back());
     }
+    done_.resize(world_.bodies.size(), 0);
     for (std::size_t i = 0; i < bodies.size(); ++i) {
-      const std::span<const int> done(bodies.data(),
-                                      i + 1);  // their pairs with this one are open, or it is itself
-      meet(bodies[i], boxes[i], now,
-           [&](int other) { return std::find(done.begin(), done.end(), other) != done.end(); });
+      done_[static_cast<std::size_t>(bodies[i])] = 1;  // their pairs with this one are open, or it is itself
+      meet(bodies[i], boxes[i], now, [&](int other) { return done_[static_cast<std::size_t>(other)] != 0; });
     }
+    for (const int body : bodies) done_[static_cast<std::size_t>(body)] = 0;
   }
 
  private:
@@ -208,6 +208,7 @@ class Stepper {
   StepReport& report_;
   const Listeners& listeners_;
   std::vector<int> others_;
+  std::vector<char> done_;       // of each body, in new_courses()
   std::vector<PairGap> solved_;  // the pairs that touched at the last instant, and its time
   double solved_at_ = -1;
 };
@@ -338,7 +339,7 @@ StepReport step(World& world, double dt, const Listeners& listeners, Planner* pl
   }
   // ANCHOR_END: step
 
-  if (world.effects.sleep) fall_asleep(world, dt, report);
+  if (world.effects.sleep && planner == nullptr) fall_asleep(world, dt, report);
   for (int body = 0; body < static_cast<int>(world.bodies.size()); ++body) {
     Body& b = world.bodies[body];
     if (b.held) report.lost_time = std::max(report.lost_time, dt - b.time);

@@ -176,8 +176,25 @@ void Contacts::add(PairContacts& pair, const ContactPoint& point, const std::vec
 double Contacts::search_convex(const world::World& world, PairContacts& pair, const Pose& a, const Pose& b,
                                double reach) {
   const ca::PairPose pose(a, b);
-  ca::GjkResult result = nearest(world, pair, pose);
-  if (!(result.lower > 0) && pair.known) {
+  const PatchSide side_a{world.model_of(pair.a), facets_[static_cast<std::size_t>(world.bodies[pair.a].shape)]},
+      side_b{world.model_of(pair.b), facets_[static_cast<std::size_t>(world.bodies[pair.b].shape)]};
+  const auto slack = [&](double gap) { return std::clamp(0.25 * gap, 0.0, kSlack * margin_); };
+  Patch patch;
+  ca::GjkResult result;
+  bool found = false;
+  if (pair.known) {
+    // The plane that is known parts them best if points face each other across no more than the gap along it.
+    result.normal = pair.axis_at(a, b);
+    result.lower = axis_gap(world, pair, a, b);
+    result.status = ca::GjkResult::Status::overlapping;
+    if (result.lower > 0 && result.lower <= reach) {
+      find_patch(side_a, side_b, pose, result, slack(result.lower), kFar * margin_ + (reach - margin_), patch);
+      for (int i = 0; i < patch.count && !found; ++i)
+        found = patch.points[static_cast<std::size_t>(i)].gap <= patch.gap + slack(patch.gap);
+    }
+  }
+  if (!found) result = nearest(world, pair, pose);
+  if (!found && !(result.lower > 0) && pair.known) {
     // An overlap (of a pose that will not be) has no plane: the last one will be near to the next.
     const double along = axis_gap(world, pair, a, b);
     if (along > result.lower) {
@@ -192,10 +209,7 @@ double Contacts::search_convex(const world::World& world, PairContacts& pair, co
   pair.axis_known = true;
   const std::vector<ContactPoint> before = std::exchange(pair.points, {});
   if (result.lower > reach) return result.lower;
-  Patch patch;
-  find_patch({world.model_of(pair.a), facets_[static_cast<std::size_t>(world.bodies[pair.a].shape)]},
-             {world.model_of(pair.b), facets_[static_cast<std::size_t>(world.bodies[pair.b].shape)]}, pose,
-             result, std::clamp(0.25 * result.lower, 0.0, kSlack * margin_), kFar * margin_ + (reach - margin_), patch);
+  if (!found) find_patch(side_a, side_b, pose, result, slack(result.lower), kFar * margin_ + (reach - margin_), patch);
   pair.axis_gap = patch.gap;
   pair.of_b = patch.of_b;
   pair.axis = (patch.of_b ? b : a).rotation.transpose() * patch.normal;

@@ -10,6 +10,9 @@ namespace {
 // Boxes are wider than paths by this part of them: paths may still change a little.
 constexpr double kWider = 0.5;
 
+// Of the margin: contact points of a crowd are searched anew after so much motion.
+constexpr double kAgain = 4;
+
 // The mean of the spin that turns one orientation into another in a time.
 Vec3 mean_spin(const Mat3& from, const Mat3& to, double time) {
   const Eigen::AngleAxisd turn(to * from.transpose());
@@ -29,7 +32,7 @@ void Courses::start(const world::World& world, std::span<const Member> all, doub
   drift.clear();
   last.clear();
   tracks.clear();
-  changed_.clear();
+  moved_.clear();
   candidates.clear();
   boxes_.clear();
   for (const Member& member : all) add_member(world, member);
@@ -38,7 +41,7 @@ void Courses::start(const world::World& world, std::span<const Member> all, doub
 void Courses::add_member(const world::World& world, const Member& member) {
   place_of_[at(member.number)] = static_cast<int>(members.size());
   members.push_back(member);
-  changed_.push_back(member.dynamic ? 1 : 0);
+  moved_.push_back(0);
   if (!member.dynamic) {
     tracks.push_back(track_of(world, member.number, now_, length_));
     const Track& track = tracks.back();
@@ -64,7 +67,7 @@ void Courses::add_member(const world::World& world, const Member& member) {
 void Courses::go(int member, const Twist& path) {
   Track& track = tracks[at(member)];
   if (!members[at(member)].dynamic || (track.velocity == path.linear && track.spin == path.angular)) return;
-  changed_[at(member)] = 1;
+  moved_[at(member)] += length_ * ((path.linear - track.velocity).norm() + track.reach * (path.angular - track.spin).norm());
   track = straight_track(members[at(member)].state, path.linear, path.angular, track.reach, length_);
 }
 
@@ -101,7 +104,7 @@ void Courses::add_pair(const world::World& world, int i, int j, bool far) {
   Candidate& pair = candidates[at(number)];
   SearchOptions options;
   options.reach = contacts_.margin() + (far ? way(pair) : 0);
-  if (far) options.again = contacts_.margin();
+  if (far) options.again = kAgain * contacts_.margin();
   contacts_.update(world, contacts, tracks[at(pair.a)].start, tracks[at(pair.b)].start, options);
   pair.in_contact = !contacts.points.empty() && contacts.gap <= contacts_.margin();
 }
@@ -112,7 +115,7 @@ void Courses::find(const world::World& world, bool far) {
   std::vector<int> wider;  // members whose boxes are new
   for (int i = 0; i < count; ++i) {
     if (first) boxes_.emplace_back();
-    if (!members[at(i)].dynamic || !changed_[at(i)]) continue;
+    if (!members[at(i)].dynamic) continue;
     const world::Bounds box = box_of(world, i);
     if (!first && (box.low.array() >= boxes_[at(i)].low.array()).all() &&
         (box.high.array() <= boxes_[at(i)].high.array()).all())
@@ -148,18 +151,18 @@ void Courses::find(const world::World& world, bool far) {
 }
 
 PathVerdict Courses::check(const world::World& world, const Candidate& pair, const Track& a, const Track& b,
-                           double floor, std::int64_t most_pairs) {
+                           PathOptions options) {
   ++checked_;
   constexpr double kTouching = 1.0 / 64;  // of the tolerance
   const double gap = pair.contacts->gap;
-  double need = std::min(floor, 0.5 * gap);
+  options.need = std::min(options.need, 0.5 * gap);
   if (gap <= kTouching * world.tolerance) {
     // It started like this, touching: then it need only not become less, but for rounding.
     const ca::PairPose pose(tracks[at(pair.a)].start, tracks[at(pair.b)].start);
-    need = gap - 64 * ca::rounding_term(world.model_of(pair.contacts->a).whole(),
-                                        world.model_of(pair.contacts->b).whole(), pose);
+    options.need = gap - 64 * ca::rounding_term(world.model_of(pair.contacts->a).whole(),
+                                                world.model_of(pair.contacts->b).whole(), pose);
   }
-  return check_path(world, contacts_, *pair.contacts, a, b, length_, need, most_pairs);
+  return check_path(world, contacts_, *pair.contacts, a, b, length_, options);
 }
 
 }  // namespace fc::resting

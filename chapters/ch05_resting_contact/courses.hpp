@@ -14,8 +14,10 @@ struct Candidate {
   PairContacts* contacts;
   int a, b;                 // places among the members
   bool in_contact = false;  // at the start
-  bool clear = false;       // their paths are proved
-  double time = 0;          // s, if not: when they have come near
+  bool checked = false, clear = false;  // whether their paths were looked at, and proved
+  double time = 0;                      // s, if not: when they have come near
+  double slack = 0;                     // m: they are clear as long as the two paths change by less
+  double moved = 0;                     // m, by which the paths had been changed when they were looked at
 };
 
 // The bodies of a plan, and what cannot be moved and is near them, on straight paths with constant spin.
@@ -32,25 +34,29 @@ class Courses {
   int candidate_of(PairContacts* contacts, int a, int b);
   // The member goes with these velocities.
   void go(int member, const Twist& path);
-  // Proves the paths of all pairs of which one goes in another way than at the last prove(); whether all are clear.
-  // `floor`: m; gaps stay above that, or half of what they were.
+  // Proves the paths of all pairs that have changed so much since they were proved that this says nothing any more; whether
+  // all are clear. `floor(pair)`: m; gaps stay above that, or half of what they were.
   template <class Floor>
-  bool prove(const world::World& world, Floor&& floor, std::int64_t most_pairs) {
+  bool prove(const world::World& world, Floor&& floor, PathOptions options) {
     bool all = true;
     for (Candidate& pair : candidates) {
-      if (changed_[at(pair.a)] || changed_[at(pair.b)]) {
-        const PathVerdict verdict = check(world, pair, tracks[at(pair.a)], tracks[at(pair.b)], floor(pair), most_pairs);
+      const double moved = moved_[at(pair.a)] + moved_[at(pair.b)];
+      const double since = moved - pair.moved;
+      if (!pair.checked || (pair.clear ? since > pair.slack : since > 0)) {
+        options.need = floor(pair);
+        const PathVerdict verdict = check(world, pair, tracks[at(pair.a)], tracks[at(pair.b)], options);
+        pair.checked = true;
         pair.clear = verdict.clear;
         pair.time = verdict.time;
+        pair.slack = verdict.slack;
+        pair.moved = moved;
       }
       all = all && pair.clear;
     }
-    std::fill(changed_.begin(), changed_.end(), 0);
     return all;
   }
   // One pair, on these paths.
-  PathVerdict check(const world::World& world, const Candidate& pair, const Track& a, const Track& b, double floor,
-                    std::int64_t most_pairs);
+  PathVerdict check(const world::World& world, const Candidate& pair, const Track& a, const Track& b, PathOptions options);
 
   double length() const { return length_; }
   int checked() const { return checked_; }
@@ -72,7 +78,7 @@ class Courses {
   std::int64_t number_ = 0;  // of starts
   double now_ = 0, length_ = 0;
   std::vector<int> place_of_;  // of each body of the world among the members, or -1
-  std::vector<char> changed_;  // of each member, since the last prove()
+  std::vector<double> moved_;  // m: of each member, how much its path has been changed at most, in all
   world::BoundsTree tree_;     // of the boxes of members that can be moved; none of others
   std::vector<world::Bounds> boxes_;
   std::vector<int> others_;

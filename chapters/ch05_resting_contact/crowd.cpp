@@ -68,7 +68,7 @@ class Shortening {
     const bool dynamic_a = courses_.members[at(pair.a)].dynamic, dynamic_b = courses_.members[at(pair.b)].dynamic;
     double &share_a = shares_[at(pair.a)], &share_b = shares_[at(pair.b)];
     for (;;) {
-      const PathVerdict verdict = courses_.check(world_, pair, scaled(pair.a), scaled(pair.b), floor, kMostPairs);
+      const PathVerdict verdict = courses_.check(world_, pair, scaled(pair.a), scaled(pair.b), {.need = floor, .most_pairs = kMostPairs, .by_planes = true});
       if (verdict.clear) return;
       const double part = kOfFree * verdict.time / courses_.length();
       const auto lower = [&](double share, double least) {
@@ -177,7 +177,8 @@ void CrowdPlanner::find_paths(const world::World& world) {
     for (std::size_t i = 0; i < paths_.size(); ++i) courses_.go(static_cast<int>(i), paths_[i]);
     courses_.find(world, true);
     add_bodies();
-    const bool clear = courses_.prove(world, [&](const Candidate&) { return floor; }, kMostPairs);
+    const bool clear =
+        courses_.prove(world, [&](const Candidate&) { return floor; }, {.most_pairs = kMostPairs, .by_planes = true, .whole = true});
     if (clear || round == options_.rounds) return;
     for (int i = 0; i < static_cast<int>(courses_.candidates.size()); ++i)
       if (!courses_.candidates[at(i)].clear) look_again(world, i);

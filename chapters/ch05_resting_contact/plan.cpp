@@ -74,7 +74,7 @@ PlanMaker::Result PlanMaker::make(const world::World& world, const Island& islan
       fast_.push_back(courses_.members[i].state);
       path_.push_back(courses_.members[i].state);
     }
-    const bool clear = courses_.prove(world, floor, kMostPairs);
+    const bool clear = courses_.prove(world, floor, {.most_pairs = kMostPairs});
     if (std::any_of(rows_.begin(), rows_.end(), acts_on_air)) return Result::unproved;
     if (clear) return Result::proved;
     bool any = false;
