@@ -66,7 +66,8 @@ Contacts::Contacts(const world::World& world, double margin) : margin_(margin) {
 }
 
 PairContacts& Contacts::pair(int a, int b) {
-  const auto low = static_cast<std::uint64_t>(std::min(a, b)), high = static_cast<std::uint64_t>(std::max(a, b));
+  const auto low = static_cast<std::uint64_t>(std::min(a, b)),
+             high = static_cast<std::uint64_t>(std::max(a, b));
   PairContacts& pair = pairs_[low << 32 | high];
   pair.a = std::min(a, b);
   pair.b = std::max(a, b);
@@ -76,7 +77,8 @@ PairContacts& Contacts::pair(int a, int b) {
 
 void Contacts::next_frame() {
   ++frame_;
-  if (frame_ % kKept == 0) std::erase_if(pairs_, [&](const auto& p) { return p.second.used + kKept < frame_; });
+  if (frame_ % kKept == 0)
+    std::erase_if(pairs_, [&](const auto& p) { return p.second.used + kKept < frame_; });
 }
 
 void Contacts::update(const world::World& world, PairContacts& pair, const Pose& a, const Pose& b,
@@ -117,14 +119,16 @@ void Contacts::update(const world::World& world, PairContacts& pair, const Pose&
   pair.known = true;
 }
 
-double Contacts::least_gap(const world::World& world, const PairContacts& pair, const Pose& a, const Pose& b) const {
+double Contacts::least_gap(const world::World& world, const PairContacts& pair, const Pose& a,
+                           const Pose& b) const {
   const hulls::Model &model_a = world.model_of(pair.a), &model_b = world.model_of(pair.b);
   const Vec3 apart = b.position - a.position;
   double gap = apart.norm() - model_a.reach - model_b.reach;
   if (pair.known) {
     const bool smaller_a = model_a.reach < model_b.reach;
-    gap = std::max(gap, pair.searched_gap - (smaller_a ? moved(pair.searched, seen_from(b, a), model_a.reach)
-                                                       : moved(pair.searched, seen_from(a, b), model_b.reach)));
+    gap =
+        std::max(gap, pair.searched_gap - (smaller_a ? moved(pair.searched, seen_from(b, a), model_a.reach)
+                                                     : moved(pair.searched, seen_from(a, b), model_b.reach)));
   }
   if (!convex(world, pair)) return gap;
   const Vec3 axis = pair.known ? pair.axis_at(a, b) : apart.normalized();
@@ -145,7 +149,8 @@ std::vector<ContactPoint> Contacts::points_at(const world::World& world, PairCon
   return std::move(there.points);
 }
 
-ca::GjkResult Contacts::nearest(const world::World& world, PairContacts& pair, const ca::PairPose& pose) const {
+ca::GjkResult Contacts::nearest(const world::World& world, PairContacts& pair,
+                                const ca::PairPose& pose) const {
   const ca::Convex a = world.model_of(pair.a).leaf(0), b = world.model_of(pair.b).leaf(0);
   ca::GjkResult result = ca::distance(a, b, pose, {.absolute = world.tolerance / 16},
                                       pair.simplex.count > 0 ? &pair.simplex : nullptr);
@@ -155,7 +160,8 @@ ca::GjkResult Contacts::nearest(const world::World& world, PairContacts& pair, c
   return result;
 }
 
-double Contacts::search(const world::World& world, PairContacts& pair, const Pose& a, const Pose& b, double reach) {
+double Contacts::search(const world::World& world, PairContacts& pair, const Pose& a, const Pose& b,
+                        double reach) {
   ++searched_;
   return convex(world, pair) ? search_convex(world, pair, a, b, reach) : search_mesh(world, pair, a, b);
 }
@@ -176,7 +182,8 @@ void Contacts::add(PairContacts& pair, const ContactPoint& point, const std::vec
 double Contacts::search_convex(const world::World& world, PairContacts& pair, const Pose& a, const Pose& b,
                                double reach) {
   const ca::PairPose pose(a, b);
-  const PatchSide side_a{world.model_of(pair.a), facets_[static_cast<std::size_t>(world.bodies[pair.a].shape)]},
+  const PatchSide side_a{world.model_of(pair.a),
+                         facets_[static_cast<std::size_t>(world.bodies[pair.a].shape)]},
       side_b{world.model_of(pair.b), facets_[static_cast<std::size_t>(world.bodies[pair.b].shape)]};
   const auto slack = [&](double gap) { return std::clamp(0.25 * gap, 0.0, kSlack * margin_); };
   Patch patch;
@@ -188,7 +195,8 @@ double Contacts::search_convex(const world::World& world, PairContacts& pair, co
     result.lower = axis_gap(world, pair, a, b);
     result.status = ca::GjkResult::Status::overlapping;
     if (result.lower > 0 && result.lower <= reach) {
-      find_patch(side_a, side_b, pose, result, slack(result.lower), kFar * margin_ + (reach - margin_), patch);
+      find_patch(side_a, side_b, pose, result, slack(result.lower), kFar * margin_ + (reach - margin_),
+                 patch);
       for (int i = 0; i < patch.count && !found; ++i)
         found = patch.points[static_cast<std::size_t>(i)].gap <= patch.gap + slack(patch.gap);
     }
@@ -209,7 +217,8 @@ double Contacts::search_convex(const world::World& world, PairContacts& pair, co
   pair.axis_known = true;
   const std::vector<ContactPoint> before = std::exchange(pair.points, {});
   if (result.lower > reach) return result.lower;
-  if (!found) find_patch(side_a, side_b, pose, result, slack(result.lower), kFar * margin_ + (reach - margin_), patch);
+  if (!found)
+    find_patch(side_a, side_b, pose, result, slack(result.lower), kFar * margin_ + (reach - margin_), patch);
   pair.axis_gap = patch.gap;
   pair.of_b = patch.of_b;
   pair.axis = (patch.of_b ? b : a).rotation.transpose() * patch.normal;
@@ -233,8 +242,8 @@ double Contacts::search_convex(const world::World& world, PairContacts& pair, co
 double Contacts::search_mesh(const world::World& world, PairContacts& pair, const Pose& a, const Pose& b) {
   const ca::PairPose pose(a, b);
   const std::vector<ContactPoint> before = std::exchange(pair.points, {});
-  const double gap = hulls::model_distance(world.model_of(pair.a), world.model_of(pair.b), pose, world.tolerance,
-                                           std::numeric_limits<double>::infinity(), kRough)
+  const double gap = hulls::model_distance(world.model_of(pair.a), world.model_of(pair.b), pose,
+                                           world.tolerance, std::numeric_limits<double>::infinity(), kRough)
                          .lower;
   if (gap > margin_) return gap;
   double of_features = gap;  // certified, too, but to a sixteenth of the distance that is asked for

@@ -35,7 +35,7 @@ struct ContactPoint {
   bool balls = false;     // two balls: the normal is along the line of their centres
   std::uint64_t key = 0;  // see PatchPoint
   double force = 0;       // N, mean of the last plan: a guess for the next
-  bool lasts = false;     // the last plan pushed here, all the time
+  bool lasts = false;     // in contact all through the last plan, which pushed the two bodies
 
   Vec3 normal_at(const Pose& pose_a, const Pose& pose_b) const {
     if (balls) return (pose_b * b.local - pose_a * a.local).normalized();
@@ -58,9 +58,10 @@ struct ContactPoint {
 
 // Two bodies that come near each other, and what is known of the gap between them.
 struct PairContacts {
-  int a = 0, b = 0;                  // a < b
-  std::vector<ContactPoint> points;  // none if the gap is wider than the margin, or was when they were searched
-  double gap = 0;                    // m, certified, at the poses of the last update()
+  int a = 0, b = 0;  // a < b
+  std::vector<ContactPoint>
+      points;      // none if the gap is wider than the margin, or was when they were searched
+  double gap = 0;  // m, certified, at the poses of the last update()
   // When it was last searched: the smaller body as seen from the larger, and the gap.
   Pose searched;
   double searched_gap = 0;  // m, certified
@@ -81,7 +82,8 @@ struct PairContacts {
 // What update() is to find.
 struct SearchOptions {
   double reach = 0;  // m: contact points of pairs with a gap up to this, if they are convex; 0: the margin
-  double again = 0;  // m: they are found anew if the two have moved by more against each other; 0: a quarter of the margin
+  double again =
+      0;  // m: they are found anew if the two have moved by more against each other; 0: a quarter of the margin
 };
 
 class Contacts {
@@ -114,7 +116,8 @@ class Contacts {
 
  private:
   double search(const world::World& world, PairContacts& pair, const Pose& a, const Pose& b, double reach);
-  double search_convex(const world::World& world, PairContacts& pair, const Pose& a, const Pose& b, double reach);
+  double search_convex(const world::World& world, PairContacts& pair, const Pose& a, const Pose& b,
+                       double reach);
   double search_mesh(const world::World& world, PairContacts& pair, const Pose& a, const Pose& b);
   static void add(PairContacts& pair, const ContactPoint& point, const std::vector<ContactPoint>& before);
 

@@ -56,8 +56,9 @@ void Courses::add_member(const world::World& world, const Member& member) {
   Twist u;
   u.linear = flight.drag == 0 ? Vec3(flight.velocity + 0.5 * length_ * flight.acceleration)
                               : Vec3(flight.position_at(length_) / length_);
-  u.angular = flight.free || flight.spin_drag > 0 ? mean_spin(flight.rotation, flight.rotation_at(length_), length_)
-                                                  : flight.spin;
+  u.angular = flight.free || flight.spin_drag > 0
+                  ? mean_spin(flight.rotation, flight.rotation_at(length_), length_)
+                  : flight.spin;
   drift.push_back(u);
   last.push_back({flight.velocity_at(length_) - u.linear, flight.spin_at(length_) - u.angular});
   const double reach = world.shapes[at(world.bodies[at(member.number)].shape)].reach;
@@ -67,7 +68,8 @@ void Courses::add_member(const world::World& world, const Member& member) {
 void Courses::go(int member, const Twist& path) {
   Track& track = tracks[at(member)];
   if (!members[at(member)].dynamic || (track.velocity == path.linear && track.spin == path.angular)) return;
-  moved_[at(member)] += length_ * ((path.linear - track.velocity).norm() + track.reach * (path.angular - track.spin).norm());
+  moved_[at(member)] +=
+      length_ * ((path.linear - track.velocity).norm() + track.reach * (path.angular - track.spin).norm());
   track = straight_track(members[at(member)].state, path.linear, path.angular, track.reach, length_);
 }
 
@@ -75,8 +77,9 @@ world::Bounds Courses::box_of(const world::World& world, int member) const {
   const Track& t = tracks[at(member)];
   const std::size_t shape = at(world.bodies[at(members[at(member)].number)].shape);
   const double turn = std::min(2.0, t.spin_rate * length_) * t.reach;
-  const Vec3 half = (t.start.rotation.cwiseAbs() * world.half_extents[shape]).cwiseMin(Vec3::Constant(t.reach)) +
-                    Vec3::Constant(0.5 * contacts_.margin() + turn);
+  const Vec3 half =
+      (t.start.rotation.cwiseAbs() * world.half_extents[shape]).cwiseMin(Vec3::Constant(t.reach)) +
+      Vec3::Constant(0.5 * contacts_.margin() + turn);
   return {t.start.position.cwiseMin(t.end.position) - half, t.start.position.cwiseMax(t.end.position) + half};
 }
 
@@ -101,12 +104,11 @@ void Courses::add_pair(const world::World& world, int i, int j, bool far) {
   const bool in_order = contacts.a == members[at(i)].number;
   const int number = candidate_of(&contacts, in_order ? i : j, in_order ? j : i);
   if (at(number) < before) return;
-  Candidate& pair = candidates[at(number)];
+  const Candidate& pair = candidates[at(number)];
   SearchOptions options;
   options.reach = contacts_.margin() + (far ? way(pair) : 0);
   if (far) options.again = kAgain * contacts_.margin();
   contacts_.update(world, contacts, tracks[at(pair.a)].start, tracks[at(pair.b)].start, options);
-  pair.in_contact = !contacts.points.empty() && contacts.gap <= contacts_.margin();
 }
 
 void Courses::find(const world::World& world, bool far) {
@@ -121,7 +123,8 @@ void Courses::find(const world::World& world, bool far) {
         (box.high.array() <= boxes_[at(i)].high.array()).all())
       continue;
     const Vec3 more = Vec3::Constant(
-        contacts_.margin() + kWider * length_ * (tracks[at(i)].velocity.norm() + tracks[at(i)].spin_rate * tracks[at(i)].reach));
+        contacts_.margin() +
+        kWider * length_ * (tracks[at(i)].velocity.norm() + tracks[at(i)].spin_rate * tracks[at(i)].reach));
     boxes_[at(i)] = {box.low - more, box.high + more};
     if (!first) tree_.replace(i, boxes_[at(i)]);
     wider.push_back(i);
@@ -136,7 +139,8 @@ void Courses::find(const world::World& world, bool far) {
     for (const int j : others_) add_pair(world, i, j, far);
     others_.clear();
     world.schedule.overlapping(boxes_[at(i)], [&](int other) {
-      if (!world.yields(other) && !world::is_sensor_pair(world, members[at(i)].number, other)) others_.push_back(other);
+      if (!world.yields(other) && !world::is_sensor_pair(world, members[at(i)].number, other))
+        others_.push_back(other);
     });
     std::sort(others_.begin(), others_.end());
     for (const int other : others_) {

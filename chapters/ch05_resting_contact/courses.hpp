@@ -12,8 +12,8 @@ namespace fc::resting {
 // Two members that may come near each other.
 struct Candidate {
   PairContacts* contacts;
-  int a, b;                 // places among the members
-  bool in_contact = false;  // at the start
+  int a, b;                             // places among the members
+  bool in_contact = false;              // at the start
   bool checked = false, clear = false;  // whether their paths were looked at, and proved
   double time = 0;                      // s, if not: when they have come near
   double slack = 0;                     // m: they are clear as long as the two paths change by less
@@ -56,7 +56,8 @@ class Courses {
     return all;
   }
   // One pair, on these paths.
-  PathVerdict check(const world::World& world, const Candidate& pair, const Track& a, const Track& b, PathOptions options);
+  PathVerdict check(const world::World& world, const Candidate& pair, const Track& a, const Track& b,
+                    PathOptions options);
 
   double length() const { return length_; }
   int checked() const { return checked_; }

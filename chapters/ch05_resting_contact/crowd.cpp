@@ -20,8 +20,13 @@ constexpr double kOfFree = 0.9, kLeastShare = 1e-3;
 // Finds shares of the paths of a crowd with which nobody is in anybody's way.
 class Shortening {
  public:
-  Shortening(const world::World& world, Courses& courses, std::vector<double>& shares, std::vector<int>& blocked)
-      : world_(world), courses_(courses), shares_(shares), blocked_(blocked), pairs_of_(courses.members.size()) {}
+  Shortening(const world::World& world, Courses& courses, std::vector<double>& shares,
+             std::vector<int>& blocked)
+      : world_(world),
+        courses_(courses),
+        shares_(shares),
+        blocked_(blocked),
+        pairs_of_(courses.members.size()) {}
 
   void run(double floor) {
     const int count = static_cast<int>(courses_.candidates.size());
@@ -55,8 +60,8 @@ class Shortening {
     const Track& track = courses_.tracks[at(member)];
     const double share = shares_[at(member)];
     if (share == 1) return track;
-    return straight_track(courses_.members[at(member)].state, share * track.velocity, share * track.spin, track.reach,
-                          courses_.length());
+    return straight_track(courses_.members[at(member)].state, share * track.velocity, share * track.spin,
+                          track.reach, courses_.length());
   }
 
  private:
@@ -65,10 +70,13 @@ class Shortening {
   // Lowers the shares of the two until their paths are clear: the larger one first, at most to the smaller; then both alike,
   // since together they move as they would, but slower.
   void take(const Candidate& pair, double floor) {
-    const bool dynamic_a = courses_.members[at(pair.a)].dynamic, dynamic_b = courses_.members[at(pair.b)].dynamic;
+    const bool dynamic_a = courses_.members[at(pair.a)].dynamic,
+               dynamic_b = courses_.members[at(pair.b)].dynamic;
     double &share_a = shares_[at(pair.a)], &share_b = shares_[at(pair.b)];
     for (;;) {
-      const PathVerdict verdict = courses_.check(world_, pair, scaled(pair.a), scaled(pair.b), {.need = floor, .most_pairs = kMostPairs, .by_planes = true});
+      const PathVerdict verdict =
+          courses_.check(world_, pair, scaled(pair.a), scaled(pair.b),
+                         {.need = floor, .most_pairs = kMostPairs, .by_planes = true});
       if (verdict.clear) return;
       const double part = kOfFree * verdict.time / courses_.length();
       const auto lower = [&](double share, double least) {
@@ -100,8 +108,8 @@ class Shortening {
 
 }  // namespace
 
-Planned CrowdPlanner::make(const world::World& world, std::span<const Member> members, double now, double length,
-                           const CrowdOptions& options) {
+Planned CrowdPlanner::make(const world::World& world, std::span<const Member> members, double now,
+                           double length, const CrowdOptions& options) {
   options_ = options;
   rows_.clear();
   late_.clear();
@@ -128,7 +136,7 @@ Planned CrowdPlanner::make(const world::World& world, std::span<const Member> me
 double CrowdPlanner::smallest_gap() const {
   double gap = std::numeric_limits<double>::infinity();
   for (const Candidate& pair : courses_.candidates)
-    if (pair.in_contact) gap = std::min(gap, pair.contacts->gap);
+    if (pair.contacts->gap <= contacts_.margin()) gap = std::min(gap, pair.contacts->gap);
   return gap;
 }
 
@@ -136,7 +144,8 @@ double CrowdPlanner::smallest_gap() const {
 void CrowdPlanner::add_bodies() {
   for (std::size_t i = at(sweeps_.bodies()); i < courses_.members.size(); ++i) {
     const Twist &mean = courses_.drift[i], &more = courses_.last[i];
-    sweeps_.add_body(courses_.members[i].state, {mean.linear + more.linear, mean.angular + more.angular}, mean);
+    sweeps_.add_body(courses_.members[i].state, {mean.linear + more.linear, mean.angular + more.angular},
+                     mean);
   }
 }
 
@@ -161,8 +170,9 @@ int CrowdPlanner::add_row(const world::World& world, int candidate, int place, b
   const double margin = contacts_.margin(), length = courses_.length();
   row.arrives = late || contact.gap > margin;
   const double guess = late ? 0 : point_of(row).force * length;
-  const int number = sweeps_.add(contact, std::max(0.0, contact.gap - 0.5 * margin) / length,
-                                 (contact.gap - wanted_gap(contact.gap, margin)) / length, guess, 0.5 * guess);
+  const int number =
+      sweeps_.add(contact, std::max(0.0, contact.gap - 0.5 * margin) / length,
+                  (contact.gap - wanted_gap(contact.gap, margin)) / length, guess, 0.5 * guess);
   row.before = sweeps_.start_speed(number);
   first_row_[at(candidate)] = number;
   rows_.push_back(row);
@@ -177,8 +187,8 @@ void CrowdPlanner::find_paths(const world::World& world) {
     for (std::size_t i = 0; i < paths_.size(); ++i) courses_.go(static_cast<int>(i), paths_[i]);
     courses_.find(world, true);
     add_bodies();
-    const bool clear =
-        courses_.prove(world, [&](const Candidate&) { return floor; }, {.most_pairs = kMostPairs, .by_planes = true, .whole = true});
+    const bool clear = courses_.prove(world, [&](const Candidate&) { return floor; },
+                                      {.most_pairs = kMostPairs, .by_planes = true, .whole = true});
     if (clear || round == options_.rounds) return;
     for (int i = 0; i < static_cast<int>(courses_.candidates.size()); ++i)
       if (!courses_.candidates[at(i)].clear) look_again(world, i);
@@ -210,7 +220,8 @@ void CrowdPlanner::look_again(const world::World& world, int candidate) {
 
 // Step 3.
 void CrowdPlanner::shorten(const world::World& world) {
-  if (std::all_of(courses_.candidates.begin(), courses_.candidates.end(), [](const Candidate& c) { return c.clear; }))
+  if (std::all_of(courses_.candidates.begin(), courses_.candidates.end(),
+                  [](const Candidate& c) { return c.clear; }))
     return;
   Shortening shortening(world, courses_, shares_, blocked_);
   shortening.run(kFloor * contacts_.margin());
@@ -288,21 +299,32 @@ void CrowdPlanner::give_back(const world::World& world, std::vector<RigidBody>& 
   }
 }
 
+// For the next plan's guess; and which contacts last: where something pushes, all points.
+void CrowdPlanner::remember() const {
+  std::vector<char> pushes(courses_.candidates.size(), 0);
+  for (int i = 0; i < rows(); ++i)
+    pushes[at(rows_[at(i)].pair)] |= sweeps_.impulse(i) > 0 && !rows_[at(i)].arrives;
+  for (int i = 0; i < rows(); ++i) {
+    const Row& row = rows_[at(i)];
+    if (row.late) continue;
+    ContactPoint& point = courses_.candidates[at(row.pair)].contacts->points[at(row.place)];
+    point.force = sweeps_.impulse(i) / courses_.length();
+    point.lasts = pushes[at(row.pair)] && !row.arrives;
+  }
+}
+
 Planned CrowdPlanner::take(const world::World& world) {
   const double length = courses_.length();
   const std::vector<RigidBody> swept = ends();
-  std::vector<RigidBody> early = swept, bounced = swept;  // without what arrives at the end; with all that happens there
+  std::vector<RigidBody> early = swept,
+                         bounced = swept;  // without what arrives at the end; with all that happens there
   give_back(world, bounced);
+  remember();
   Planned result;
   for (int i = 0; i < rows(); ++i) {
     const Row& row = rows_[at(i)];
     const Candidate& pair = courses_.candidates[at(row.pair)];
     const double z = sweeps_.impulse(i);
-    if (!row.late) {  // for the next plan
-      ContactPoint& point = pair.contacts->points[at(row.place)];
-      point.force = z / length;
-      point.lasts = z > 0 && !row.arrives;
-    }
     if (!(z > 0)) continue;
     ++result.pushing;
     const bool driven = world.carries(pair.contacts->a) || world.carries(pair.contacts->b);
@@ -311,8 +333,9 @@ Planned CrowdPlanner::take(const world::World& world) {
     if (row.arrives) lcp::apply_impulse(early, contact, -z);
     if (driven) result.kinematic_work += lcp::kinematic_work(swept, contact, z + back_[at(i)]);
     if (!options_.told) continue;
-    PlannedRow told{contact, z, back_[at(i)], row.before, lcp::contact_velocity(bounced, contact), point_of(row).key,
-                    row.arrives};
+    PlannedRow told{
+        contact,           z,          back_[at(i)], row.before, lcp::contact_velocity(bounced, contact),
+        point_of(row).key, row.arrives};
     if (row.arrives) {
       const Track &a = courses_.tracks[at(pair.a)], &b = courses_.tracks[at(pair.b)];
       told.contact.gap = point_of(row).gap_at(a.end, b.end);

@@ -9,9 +9,9 @@ namespace fc::resting {
 struct CrowdOptions {
   double rest_speed = 0;  // m/s: what comes in faster gives back what its restitution says
   int sweeps = 16;
-  int rounds = 3;         // in which pairs whose paths are not clear are looked at again,
-  int path_sweeps = 8;    // with so many sweeps in each
-  bool told = true;       // whether rows are wanted
+  int rounds = 3;       // in which pairs whose paths are not clear are looked at again,
+  int path_sweeps = 8;  // with so many sweeps in each
+  bool told = true;     // whether rows are wanted
 };
 
 // Plans for crowds. There are no events in one: whatever arrives within the plan's time does so at its end, and gives back at
@@ -42,16 +42,17 @@ class CrowdPlanner {
 
  private:
   struct Row {
-    int pair;             // among the candidates
-    int place;            // among the points of the pair, or, if `late`, among late_
-    int next;             // row of the same pair, or -1
-    double before;        // m/s: how fast the contact parts after free flight
-    bool late;            // found at the end of a path that is not clear
-    bool arrives;         // not in contact at the start
+    int pair;       // among the candidates
+    int place;      // among the points of the pair, or, if `late`, among late_
+    int next;       // row of the same pair, or -1
+    double before;  // m/s: how fast the contact parts after free flight
+    bool late;      // found at the end of a path that is not clear
+    bool arrives;   // not in contact at the start
   };
   static std::size_t at(int index) { return static_cast<std::size_t>(index); }
   const ContactPoint& point_of(const Row& row) const {
-    return row.late ? late_[at(row.place)] : courses_.candidates[at(row.pair)].contacts->points[at(row.place)];
+    return row.late ? late_[at(row.place)]
+                    : courses_.candidates[at(row.pair)].contacts->points[at(row.place)];
   }
   lcp::Contact contact_of(const world::World& world, const Row& row) const;
   void add_bodies();
@@ -60,6 +61,7 @@ class CrowdPlanner {
   void look_again(const world::World& world, int candidate);
   void shorten(const world::World& world);
   void drop_what_acts_on_air();
+  void remember() const;
   std::vector<RigidBody> ends() const;
   void give_back(const world::World& world, std::vector<RigidBody>& bodies);
   Planned take(const world::World& world);
@@ -69,7 +71,7 @@ class CrowdPlanner {
   Sweeps sweeps_;
   CrowdOptions options_;
   std::vector<Row> rows_;
-  std::vector<int> first_row_;             // of each candidate, or -1
+  std::vector<int> first_row_;  // of each candidate, or -1
   std::vector<ContactPoint> late_;
   std::vector<Twist> velocities_, paths_;  // of each member, at the end
   std::vector<double> shares_;             // of its path that a member goes

@@ -64,7 +64,8 @@ InstantResult resolve_instant(const world::World& world, Island& island, double 
   for (const IslandPair& pair : island.pairs) {
     const int number_a = island.members[static_cast<std::size_t>(pair.a)].number,
               number_b = island.members[static_cast<std::size_t>(pair.b)].number;
-    const RigidBody &a = bodies[static_cast<std::size_t>(pair.a)], &b = bodies[static_cast<std::size_t>(pair.b)];
+    const RigidBody &a = bodies[static_cast<std::size_t>(pair.a)],
+                    &b = bodies[static_cast<std::size_t>(pair.b)];
     const Pose pose_a = a.pose(), pose_b = b.pose();
     for (const ContactPoint& point : pair.contacts->points) {
       const double gap = point.gap_at(pose_a, pose_b);
@@ -132,7 +133,8 @@ InstantResult resolve_instant(const world::World& world, Island& island, double 
     record.contact = contacts[i];
     record.contact.body_a = island.members[static_cast<std::size_t>(contacts[i].body_a)].number;
     record.contact.body_b = island.members[static_cast<std::size_t>(contacts[i].body_b)].number;
-    record.impulse = {static_cast<int>(i), 0, before[i], lcp::contact_velocity(bodies, contacts[i]), total[i]};
+    record.impulse = {static_cast<int>(i), 0, before[i], lcp::contact_velocity(bodies, contacts[i]),
+                      total[i]};
     record.kind = comes_in[i] ? world::ContactKind::impact : world::ContactKind::rest;
     result.records.push_back(record);
     result.keys.push_back(keys[i]);

@@ -67,13 +67,15 @@ Island IslandFinder::grow(const world::World& world, int body, const std::vector
   return island;
 }
 
-std::vector<std::vector<int>> find_crowds(const world::World& world, Contacts& contacts, double dt, double most_work) {
+std::vector<std::vector<int>> find_crowds(const world::World& world, Contacts& contacts, double dt,
+                                          double most_work) {
   const std::size_t count = world.bodies.size();
   std::vector<int> parent(count), arrivals(count, 0), points(count, 0);
   std::iota(parent.begin(), parent.end(), 0);
   const auto root = [&](int body) {
     while (parent[static_cast<std::size_t>(body)] != body)
-      body = parent[static_cast<std::size_t>(body)] = parent[static_cast<std::size_t>(parent[static_cast<std::size_t>(body)])];
+      body = parent[static_cast<std::size_t>(body)] =
+          parent[static_cast<std::size_t>(parent[static_cast<std::size_t>(body)])];
     return body;
   };
   world.schedule.overlapping_pairs([&](int a, int b) {
@@ -84,8 +86,9 @@ std::vector<std::vector<int>> find_crowds(const world::World& world, Contacts& c
     const RigidBody &first = world.bodies[static_cast<std::size_t>(pair.a)].state,
                     &second = world.bodies[static_cast<std::size_t>(pair.b)].state;
     const double gap = contacts.least_gap(world, pair, first.pose(), second.pose());
-    const double way = dt * ((second.velocity - first.velocity).norm() +
-                             first.spin.norm() * world.model_of(pair.a).reach + second.spin.norm() * world.model_of(pair.b).reach);
+    const double way =
+        dt * ((second.velocity - first.velocity).norm() + first.spin.norm() * world.model_of(pair.a).reach +
+              second.spin.norm() * world.model_of(pair.b).reach);
     if (gap - way > contacts.margin()) return;
     const int low = std::min(root(a), root(b)), high = std::max(root(a), root(b));
     parent[static_cast<std::size_t>(high)] = low;
@@ -94,8 +97,10 @@ std::vector<std::vector<int>> find_crowds(const world::World& world, Contacts& c
       points[static_cast<std::size_t>(low)] += points[static_cast<std::size_t>(high)];
     }
     const int known = static_cast<int>(pair.points.size());
-    if (known == 0 || pair.gap > contacts.margin()) ++arrivals[static_cast<std::size_t>(low)];
-    else points[static_cast<std::size_t>(low)] += known;
+    if (known == 0 || pair.gap > contacts.margin())
+      ++arrivals[static_cast<std::size_t>(low)];
+    else
+      points[static_cast<std::size_t>(low)] += known;
   });
   std::vector<std::vector<int>> crowds;
   std::vector<int> crowd_of(count, -1);

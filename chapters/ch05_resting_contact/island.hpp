@@ -15,8 +15,8 @@ struct Twist {
 
 // A body of an island, or one that cannot be moved and that the island touches.
 struct Member {
-  int number = 0;      // in the world
-  RigidBody state;     // at the instant
+  int number = 0;        // in the world
+  RigidBody state;       // at the instant
   bool dynamic = false;  // impulses can move it
 };
 
@@ -54,7 +54,7 @@ class IslandFinder {
   double now_ = 0;
   std::int64_t first_ = 1, island_ = 0;  // numbers of islands: since the last begin(), and the one at hand
   std::vector<std::int64_t> stamp_;      // of each body: its island's
-  std::vector<int> place_;               // there; of a body that cannot be moved, in the island at hand, or -1
+  std::vector<int> place_;  // there; of a body that cannot be moved, in the island at hand, or -1
   std::vector<int> others_;
 };
 
@@ -67,6 +67,7 @@ inline double event_work(int arrivals, int points) {
 
 // Groups of bodies that are in contact, or may come into contact with each other within dt seconds from a frame's start on,
 // that would be more than `most_work`. Their boxes are in the schedule.
-std::vector<std::vector<int>> find_crowds(const world::World& world, Contacts& contacts, double dt, double most_work);
+std::vector<std::vector<int>> find_crowds(const world::World& world, Contacts& contacts, double dt,
+                                          double most_work);
 
 }  // namespace fc::resting

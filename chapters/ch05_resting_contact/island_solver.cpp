@@ -7,7 +7,8 @@
 namespace fc::resting {
 
 IslandResult IslandSolver::solve(std::span<RigidBody> bodies, std::span<const lcp::Contact> contacts,
-                                 std::span<const double> allowed, std::span<double> z, const IslandOptions& options) {
+                                 std::span<const double> allowed, std::span<double> z,
+                                 const IslandOptions& options) {
   constexpr int kSweeps = 5000;
   constexpr double kResidual = 1e-5;
   lcp::ImpactProblem problem = lcp::assemble(bodies, contacts);

@@ -68,8 +68,8 @@ double least_gap(const ca::Convex& core_a, const ca::Convex& core_b, const Track
   const double sine = across.norm();
   plane.spin_rate = std::atan2(sine, from.normal.dot(to.normal)) / dt;
   plane.spin = sine > 0 ? Vec3(plane.spin_rate / sine * across) : Vec3(Vec3::Zero());
-  double best = least_between(from.gap, to.gap,
-                              share * (bend_seen_from(plane, moving_a, dt) + bend_seen_from(plane, moving_b, dt)));
+  double best = least_between(
+      from.gap, to.gap, share * (bend_seen_from(plane, moving_a, dt) + bend_seen_from(plane, moving_b, dt)));
   const auto at = [&](const PlaneAt& place, const Vec3& normal) {
     return ca::support_gap(core_a, core_b, ca::PairPose(place.a, place.b), normal);
   };
@@ -78,9 +78,11 @@ double least_gap(const ca::Convex& core_a, const ca::Convex& core_b, const Track
     if (best >= enough) break;
     const Mat3 turn = on_a ? Mat3(to.a.rotation * from.a.rotation.transpose())
                            : Mat3(to.b.rotation * from.b.rotation.transpose());
-    const double sag = share * (on_a ? bend_seen_from(moving_a, moving_b, dt) : bend_seen_from(moving_b, moving_a, dt));
+    const double sag =
+        share * (on_a ? bend_seen_from(moving_a, moving_b, dt) : bend_seen_from(moving_b, moving_a, dt));
     best = std::max(best, least_between(from.gap, at(to, turn * from.normal), sag));
-    if (best < enough) best = std::max(best, least_between(at(from, turn.transpose() * to.normal), to.gap, sag));
+    if (best < enough)
+      best = std::max(best, least_between(at(from, turn.transpose() * to.normal), to.gap, sag));
   }
   return best;
 }
@@ -91,7 +93,8 @@ std::optional<PathVerdict> by_planes(const world::World& world, const Contacts& 
   const ca::Convex core_a = world.model_of(pair.a).leaf(0), core_b = world.model_of(pair.b).leaf(0);
   const double need = options.need;
   const auto best_at = [&](double time) {
-    const Pose pose_a = time == dt ? a.end : a.motion.pose_at(time), pose_b = time == dt ? b.end : b.motion.pose_at(time);
+    const Pose pose_a = time == dt ? a.end : a.motion.pose_at(time),
+               pose_b = time == dt ? b.end : b.motion.pose_at(time);
     const ca::GjkResult nearest = contacts.nearest(world, pair, ca::PairPose(pose_a, pose_b));
     return PlaneAt{time, pose_a, pose_b, nearest.normal, nearest.lower};
   };
@@ -119,7 +122,8 @@ std::optional<PathVerdict> by_planes(const world::World& world, const Contacts& 
 
 }  // namespace
 
-Track straight_track(const RigidBody& start, const Vec3& velocity, const Vec3& spin, double reach, double dt) {
+Track straight_track(const RigidBody& start, const Vec3& velocity, const Vec3& spin, double reach,
+                     double dt) {
   Track track;
   track.start = start.pose();
   track.reach = reach;
@@ -151,8 +155,8 @@ Track track_of(const world::World& world, int body, double now, double dt) {
   return track;
 }
 
-PathVerdict check_path(const world::World& world, const Contacts& contacts, PairContacts& pair, const Track& a,
-                       const Track& b, double dt, const PathOptions& options) {
+PathVerdict check_path(const world::World& world, const Contacts& contacts, PairContacts& pair,
+                       const Track& a, const Track& b, double dt, const PathOptions& options) {
   const double need = options.need;
   const bool steady = a.steady && b.steady;
   if (steady) {
@@ -166,7 +170,9 @@ PathVerdict check_path(const world::World& world, const Contacts& contacts, Pair
     pair.axis_known = true;
     if (pair.axis_gap >= need) {  // the plane that is known, without a search
       const Moving moving_a(a, 0, a.start), moving_b(b, 0, b.start);
-      const double sag = dt * dt / 8 * (pair.of_b ? bend_seen_from(moving_b, moving_a, dt) : bend_seen_from(moving_a, moving_b, dt));
+      const double sag =
+          dt * dt / 8 *
+          (pair.of_b ? bend_seen_from(moving_b, moving_a, dt) : bend_seen_from(moving_a, moving_b, dt));
       const double least = least_between(pair.axis_gap, contacts.axis_gap(world, pair, a.end, b.end), sag);
       if (least >= need) return {true, dt, least - need};
     }
@@ -180,8 +186,8 @@ PathVerdict check_path(const world::World& world, const Contacts& contacts, Pair
   reaches.slack = 0.25 * std::max(need, world.tolerance);
   reaches.start = -1;
   reaches.max_pairs = std::min(world.max_pairs, options.most_pairs);
-  const hulls::Reach reach =
-      hulls::first_reach(world.model_of(pair.a), a.motion, world.model_of(pair.b), b.motion, reaches, world.memory);
+  const hulls::Reach reach = hulls::first_reach(world.model_of(pair.a), a.motion, world.model_of(pair.b),
+                                                b.motion, reaches, world.memory);
   if (reach.status == hulls::Reach::Status::clear) return {true, dt};
   return {false, reach.time};
 }

@@ -29,7 +29,8 @@ struct PathVerdict {
 // How hard to try.
 struct PathOptions {
   double need = 0;  // m
-  std::int64_t most_pairs = std::numeric_limits<std::int64_t>::max();  // of nodes; and no more than the scene's limit
+  std::int64_t most_pairs =
+      std::numeric_limits<std::int64_t>::max();  // of nodes; and no more than the scene's limit
   bool by_planes = false;  // of convex pairs: no advancement; the time is how far planes prove
   bool whole = false;      // and if the end is not clear, that is all: the time is the whole
 };
@@ -42,7 +43,7 @@ struct PathOptions {
 //                     least (1 - x) s_0 + x s_1 - k dt^2 x (1 - x) / 2, where k bounds how much the way of any point is bent,
 //                     as seen by who goes with the plane; intervals are halved where that is too little;
 //   3. by conservative advancement (chapter 2).
-PathVerdict check_path(const world::World& world, const Contacts& contacts, PairContacts& pair, const Track& a,
-                       const Track& b, double dt, const PathOptions& options);
+PathVerdict check_path(const world::World& world, const Contacts& contacts, PairContacts& pair,
+                       const Track& a, const Track& b, double dt, const PathOptions& options);
 
 }  // namespace fc::resting

@@ -27,8 +27,8 @@ constexpr std::int64_t kMostPairs = 50'000;
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-constexpr int kMostProofs = 4;   // rounds in which unproved pairs become rows
-constexpr int kMostRounds = 8;   // in which the paths' ends are looked at again
+constexpr int kMostProofs = 4;    // rounds in which unproved pairs become rows
+constexpr int kMostRounds = 8;    // in which the paths' ends are looked at again
 constexpr double kClosed = 1e-6;  // of the margin: how exactly contacts close at the plan's end
 
 }  // namespace
@@ -96,7 +96,8 @@ bool PlanMaker::comes_in_fast(const IslandPair& pair) const {
   for (const ContactPoint& point : pair.contacts->points) {
     nearest = std::min(nearest, point.gap_at(pose_a, pose_b));
     const Vec3 middle = point.middle(pose_a, pose_b);
-    fastest = std::min(fastest, point.normal_at(pose_a, pose_b).dot(b.velocity_at(middle) - a.velocity_at(middle)));
+    fastest =
+        std::min(fastest, point.normal_at(pose_a, pose_b).dot(b.velocity_at(middle) - a.velocity_at(middle)));
   }
   return fastest < -options_.rest_speed && nearest > kRoom * contacts_.margin();
 }
@@ -110,8 +111,8 @@ void PlanMaker::add_row(const world::World& world, int candidate, const ContactP
   row.point = point;
   row.gap = point.gap_at(pose_a, pose_b);
   row.arrives = arrives || row.gap > contacts_.margin();
-  row.contact = {pair.a, pair.b, point.middle(pose_a, pose_b), point.normal_at(pose_a, pose_b), row.gap, 0,
-                 world.turns(a.number), world.turns(b.number)};
+  row.contact = {pair.a,  pair.b, point.middle(pose_a, pose_b), point.normal_at(pose_a, pose_b),
+                 row.gap, 0,      world.turns(a.number),        world.turns(b.number)};
   const double gap = arrives ? std::min(pair.contacts->gap, 0.5 * contacts_.margin()) : row.gap;
   row.keep = std::min(gap, 0.5 * contacts_.margin());
   row.want = wanted_gap(gap, contacts_.margin());
@@ -168,7 +169,8 @@ bool PlanMaker::solve() {
 
 // The contact's velocity (m/s) at the end of the paths, if bodies have these velocities.
 double PlanMaker::end_speed(const Row& row, const std::vector<RigidBody>& bodies) const {
-  const Track &track_a = courses_.tracks[at(row.contact.body_a)], &track_b = courses_.tracks[at(row.contact.body_b)];
+  const Track &track_a = courses_.tracks[at(row.contact.body_a)],
+              &track_b = courses_.tracks[at(row.contact.body_b)];
   const RigidBody &a = bodies[at(row.contact.body_a)], &b = bodies[at(row.contact.body_b)];
   const Vec3 arm_a = row.point.on_a(track_a.end, track_b.end) - track_a.end.position,
              arm_b = row.point.on_b(track_a.end, track_b.end) - track_b.end.position;
@@ -188,7 +190,8 @@ bool PlanMaker::close_ends() {
       const Track &a = courses_.tracks[at(row.contact.body_a)], &b = courses_.tracks[at(row.contact.body_b)];
       row.end_gap = row.point.gap_at(a.end, b.end);
       if (row.end_gap >= contacts_.margin() && !(row.impulse > 0 || row.correction > 0)) continue;
-      const double bend = row.end_gap - row.gap - courses_.length() * lcp::contact_velocity(path_, row.contact);
+      const double bend =
+          row.end_gap - row.gap - courses_.length() * lcp::contact_velocity(path_, row.contact);
       worst = std::max(worst, std::abs(bend - row.bend));
       row.most_push = std::max(0.0, -end_speed(row, fast_));
       row.bend = bend;
@@ -217,19 +220,34 @@ bool PlanMaker::add_rows_of(const world::World& world, int candidate) {
       rows_.pop_back();
       continue;
     }
-    row.bend = point.gap_at(a.end, b.end) - row.gap - courses_.length() * lcp::contact_velocity(path_, row.contact);
+    row.bend =
+        point.gap_at(a.end, b.end) - row.gap - courses_.length() * lcp::contact_velocity(path_, row.contact);
     any = true;
   }
   return any;
+}
+
+// For the next plan's guess; and which contacts last: where something pushes, all points that stay in contact.
+void PlanMaker::remember() const {
+  std::vector<char> pushes(courses_.candidates.size(), 0);
+  for (const Row& row : rows_) pushes[at(row.pair)] |= row.impulse > 0 && !row.arrives;
+  for (const Row& row : rows_)
+    for (ContactPoint& point : courses_.candidates[at(row.pair)].contacts->points) {
+      if (point.key != row.point.key) continue;
+      point.force = row.impulse / courses_.length();
+      point.lasts = pushes[at(row.pair)] && !row.arrives && row.end_gap <= contacts_.margin();
+    }
 }
 
 // Who goes by the plan: whoever is pushed, or ends in contact.
 Planned PlanMaker::take() {
   const std::size_t count = courses_.members.size();
   const double length = courses_.length();
+  remember();
   Planned result;
   std::vector<char> goes(count, 0);
-  std::vector<RigidBody> drifting = fast_, ends = fast_;  // without the impulses, and without those of arrivals
+  std::vector<RigidBody> drifting = fast_,
+                         ends = fast_;  // without the impulses, and without those of arrivals
   for (std::size_t i = 0; i < count; ++i) {
     drifting[i].velocity = courses_.drift[i].linear;
     drifting[i].spin = courses_.drift[i].angular;
@@ -241,8 +259,13 @@ Planned PlanMaker::take() {
     ++result.pushing;
     if (row.arrives) lcp::apply_impulse(ends, row.contact, -row.impulse);
     result.kinematic_work += lcp::kinematic_work(fast_, row.contact, row.impulse);
-    PlannedRow told{row.contact, row.impulse, 0, lcp::contact_velocity(drifting, row.contact),
-                    lcp::contact_velocity(fast_, row.contact), row.point.key, row.arrives};
+    PlannedRow told{row.contact,
+                    row.impulse,
+                    0,
+                    lcp::contact_velocity(drifting, row.contact),
+                    lcp::contact_velocity(fast_, row.contact),
+                    row.point.key,
+                    row.arrives};
     if (row.arrives) {
       told.contact.gap = row.end_gap;
       told.contact.point = row.point.middle(courses_.tracks[at(row.contact.body_a)].end,
@@ -251,11 +274,6 @@ Planned PlanMaker::take() {
     told.contact.body_a = courses_.members[at(row.contact.body_a)].number;
     told.contact.body_b = courses_.members[at(row.contact.body_b)].number;
     result.rows.push_back(told);
-    for (ContactPoint& point : courses_.candidates[at(row.pair)].contacts->points)  // for the next plan's guess
-      if (point.key == row.point.key) {
-        point.force = row.impulse / length;
-        point.lasts = !row.arrives;
-      }
   }
   for (std::size_t i = 0; i < count; ++i) {
     const RigidBody &path = path_[i], &fast = fast_[i], &end = ends[i];

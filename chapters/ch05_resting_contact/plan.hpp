@@ -13,18 +13,18 @@ struct PlannedRow {
   double back = 0;               // N s, that it gives back at the plan's end
   double before = 0, after = 0;  // m/s, the contact's velocity without and with the plan's impulses
   std::uint64_t key = 0;         // of its point
-  bool arrives = false;          // it was not in contact at the start: what it does, it does at the plan's end
+  bool arrives = false;  // it was not in contact at the start: what it does, it does at the plan's end
 };
 
 // What a plan's bodies do. An event may end it before its time: then only that share of its impulses has acted.
 struct Planned {
   std::vector<int> bodies;  // by their numbers in the world
   std::vector<world::Plan> courses;
-  std::vector<Twist> arrivals;  // what velocities get at the plan's end
+  std::vector<Twist> arrivals;   // what velocities get at the plan's end
   int pushing = 0;               // contacts with an impulse,
   std::vector<PlannedRow> rows;  // and what they do
-  double kinematic_work = 0;  // J, done by kinematic bodies
-  double correction = 0;      // m, by which a body's point is moved at most to put gaps right
+  double kinematic_work = 0;     // J, done by kinematic bodies
+  double correction = 0;         // m, by which a body's point is moved at most to put gaps right
 };
 
 struct PlanOptions {
@@ -69,13 +69,14 @@ class PlanMaker {
   struct Row {
     int pair;  // among the candidates
     ContactPoint point;
-    lcp::Contact contact;  // bodies by their places among the members
-    double gap = 0;        // m, now
-    double bend = 0;       // m, by which the gap at the end differs from its first order
+    lcp::Contact contact;       // bodies by their places among the members
+    double gap = 0;             // m, now
+    double bend = 0;            // m, by which the gap at the end differs from its first order
     double keep = 0, want = 0;  // m, at the end: for velocities, and for paths
     double impulse = 0, correction = 0;
     double end_gap = 0;
-    double most_push = 0;  // m/s: velocities are made to part by no more, since no more is taken back at the end
+    double most_push =
+        0;  // m/s: velocities are made to part by no more, since no more is taken back at the end
     bool arrives = false;  // not in contact now: what the row does, it does at the plan's end
   };
   static std::size_t at(int index) { return static_cast<std::size_t>(index); }
@@ -84,6 +85,7 @@ class PlanMaker {
   bool solve();
   bool solve(std::vector<RigidBody>& bodies);
   bool close_ends();
+  void remember() const;
   bool add_rows_of(const world::World& world, int candidate);
   double end_speed(const Row& row, const std::vector<RigidBody>& bodies) const;
 

@@ -9,11 +9,13 @@ void RestRecords::clear() {
 
 void RestRecords::add(const world::ImpactRecord& record, std::uint64_t key) {
   constexpr double kSameNormal = 1e-14;
-  const auto a = static_cast<std::uint64_t>(record.contact.body_a), b = static_cast<std::uint64_t>(record.contact.body_b);
+  const auto a = static_cast<std::uint64_t>(record.contact.body_a),
+             b = static_cast<std::uint64_t>(record.contact.body_b);
   int& last = last_of_.try_emplace(a << 32 | b, -1).first->second;
   for (int i = last; i >= 0; i = records_[static_cast<std::size_t>(i)].next) {
     Told& told = records_[static_cast<std::size_t>(i)];
-    if (told.key != key || (told.record.contact.normal - record.contact.normal).norm() > kSameNormal) continue;
+    if (told.key != key || (told.record.contact.normal - record.contact.normal).norm() > kSameNormal)
+      continue;
     told.record.impulse.impulse += record.impulse.impulse;
     told.record.impulse.v_after = record.impulse.v_after;
     return;

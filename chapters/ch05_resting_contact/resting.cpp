@@ -26,7 +26,9 @@ constexpr double kStill = 1e-9;
 // What happens at the frame's end is told a little before it (of a frame): it belongs to this frame, whose velocities it makes.
 constexpr double kBeforeEnd = 1e-9;
 
-double told_at(double now, double dt) { return std::min(now, (1 - kBeforeEnd) * dt); }
+double told_at(double now, double dt) {
+  return std::min(now, (1 - kBeforeEnd) * dt);
+}
 
 double energy_of(const world::World& world, const RigidBody& state) {  // J
   return state.kinetic_energy() -
@@ -168,10 +170,13 @@ void Resting::go_on(Instant& instant, Crowd& crowd) {
   CrowdOptions options;
   options.rest_speed = envelope() / dt_;
   options.told = static_cast<bool>(instant.listeners.impact);
-  const auto make = [&] { return crowd_planner_.make(instant.world, members, instant.now, end - instant.now, options); };
+  const auto make = [&] {
+    return crowd_planner_.make(instant.world, members, instant.now, end - instant.now, options);
+  };
   Planned planned = make();
   if (!crowd_planner_.blocked().empty()) {
-    for (const int body : crowd_planner_.blocked()) stop(instant.world, body, instant.now, dt_, instant.report);
+    for (const int body : crowd_planner_.blocked())
+      stop(instant.world, body, instant.now, dt_, instant.report);
     planned = make();
   }
   report_.checked += crowd_planner_.checked();
@@ -265,7 +270,8 @@ void Resting::end_plan(Instant& instant, int number) {
                    row.key);
     if (!whole || !(row.back > 0)) continue;
     ++instant.report.impacts;
-    instant.listeners.impact({end, row.contact, {0, 0, row.before, row.after, row.back}, world::ContactKind::impact});
+    instant.listeners.impact(
+        {end, row.contact, {0, 0, row.before, row.after, row.back}, world::ContactKind::impact});
   }
   instant.report.kinematic_work += share * plan.what.kinematic_work;
   plan.runs = false;
@@ -298,10 +304,12 @@ bool Resting::resolve(Instant& instant, Island& island) {
     if (!impact) records_.add(record, result.keys[i]);
     if (impact && instant.listeners.impact) instant.listeners.impact(record);
   }
-  for (Member& member : island.members) {  // what is left of a velocity in contact that does not move the body
+  for (Member& member :
+       island.members) {  // what is left of a velocity in contact that does not move the body
     const double reach = instant.world.model_of(member.number).reach;
     const double speed = member.state.velocity.norm() + reach * member.state.spin.norm();
-    if (member.dynamic && dt_ * speed < kStill * envelope()) member.state.velocity = member.state.spin = Vec3::Zero();
+    if (member.dynamic && dt_ * speed < kStill * envelope())
+      member.state.velocity = member.state.spin = Vec3::Zero();
   }
   if (result.impact && instant.listeners.instant) {
     for (const Member& member : island.members)
@@ -323,7 +331,8 @@ bool Resting::plan(Instant& instant, Island& island) {
   if (length > kNearlyAll * left) length = left;
   using Result = PlanMaker::Result;
   for (;;) {
-    const Result result = maker_.make(instant.world, island, instant.now, length, {options_.solver, envelope() / dt_});
+    const Result result =
+        maker_.make(instant.world, island, instant.now, length, {options_.solver, envelope() / dt_});
     report_.checked += maker_.checked();
     instant.report.solves += maker_.solves();
     instant.report.lcp_residual = std::max(instant.report.lcp_residual, maker_.worst_residual());
@@ -356,7 +365,8 @@ void Resting::start(Instant& instant, Planned&& planned, double end) {
     world::Body& body = instant.world.bodies[at(planned.bodies[i])];
     body.plan = planned.courses[i];
     body.plan.number = number;
-    const double path = dt_ * (body.plan.linear.norm() + instant.world.model_of(planned.bodies[i]).reach * body.plan.angular.norm());
+    const double path = dt_ * (body.plan.linear.norm() +
+                               instant.world.model_of(planned.bodies[i]).reach * body.plan.angular.norm());
     if (path < kStill * envelope()) body.plan.linear = body.plan.angular = Vec3::Zero();
   }
   plans_[at(number)] = {true, instant.now, end, std::move(planned)};

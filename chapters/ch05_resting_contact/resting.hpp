@@ -13,22 +13,23 @@ namespace fc::resting {
 // What a frame did beyond chapter 4's report.
 struct RestReport {
   world::StepReport step;
-  int resting = 0;             // impulses of contacts that last: one for each contact and plan
+  int resting = 0;  // impulses of contacts that last: one for each contact and plan
   int plans = 0;
-  std::int64_t searched = 0;   // pairs whose contacts were searched anew
-  std::int64_t checked = 0;    // paths of pairs that were to be proved
+  std::int64_t searched = 0;                                      // pairs whose contacts were searched anew
+  std::int64_t checked = 0;                                       // paths of pairs that were to be proved
   double smallest_gap = std::numeric_limits<double>::infinity();  // m, of bodies in contact, certified
-  int largest_island = 0;      // contact points
-  int sweeps = 0;              // of Gauss-Seidel, in crowds
-  double correction = 0;       // m, the largest that a body's point was moved to put gaps right
-  double correction_energy = 0;  // J, that bodies in contact gained beyond what kinematic bodies did: by corrections of
-                                 // positions, and by the plans' error, which is of second order
-  int shortened = 0;             // bodies of crowds whose paths were shortened
-  double lost_impulse = 0;       // N s, the momentum that this took
+  int largest_island = 0;                                         // contact points
+  int sweeps = 0;                                                 // of Gauss-Seidel, in crowds
+  double correction = 0;  // m, the largest that a body's point was moved to put gaps right
+  double correction_energy =
+      0;              // J, that bodies in contact gained beyond what kinematic bodies did: by corrections of
+                      // positions, and by the plans' error, which is of second order
+  int shortened = 0;  // bodies of crowds whose paths were shortened
+  double lost_impulse = 0;  // N s, the momentum that this took
 };
 
 struct RestOptions {
-  double most_work = 4e5;  // see event_work(): more makes a crowd
+  double most_work = 4e5;   // see event_work(): more makes a crowd
   int most_meetings = 256;  // and so does a body that meets others more often in one frame
   IslandOptions solver;
 };

@@ -41,7 +41,8 @@ void fall_asleep(world::World& world, IslandFinder& islands, double dt, world::S
   const std::vector<int> no_crowds(world.bodies.size(), -1);
   islands.begin(0);
   for (int i = 0; i < static_cast<int>(world.bodies.size()); ++i) {
-    if (!world.yields(i) || world.bodies[static_cast<std::size_t>(i)].asleep || islands.is_in_island(i)) continue;
+    if (!world.yields(i) || world.bodies[static_cast<std::size_t>(i)].asleep || islands.is_in_island(i))
+      continue;
     const Island island = islands.grow(world, i, no_crowds);
     if (!rests(world, island, dt)) continue;
     for (const Member& member : island.members) {

@@ -34,8 +34,8 @@ void Sweeps::clear() {
 }
 
 void Sweeps::add_body(const RigidBody& body, const Twist& velocity, const Twist& path) {
-  Mass mass{body.position, body.inverse_mass * body.free_moves, std::sqrt(body.inverse_mass) * body.free_moves,
-            Mat3::Zero(), Mat3::Zero()};
+  Mass mass{body.position, body.inverse_mass * body.free_moves,
+            std::sqrt(body.inverse_mass) * body.free_moves, Mat3::Zero(), Mat3::Zero()};
   if (!body.is_static()) {
     mass.turn = body.inverse_inertia_world();
     mass.turn_root = root_of(body, mass.turn);
@@ -65,7 +65,8 @@ int Sweeps::add(const lcp::Contact& c, double allowed, double room, double impul
     return along(c.normal, arms.a, arms.b, twists[at(c.body_a)], twists[at(c.body_b)]);
   };
   const double path_start = start(paths_);
-  rows_.push_back({c.body_a, c.body_b, static_cast<float>(impulse * root), static_cast<float>(correction * root),
+  rows_.push_back({c.body_a, c.body_b, static_cast<float>(impulse * root),
+                   static_cast<float>(correction * root),
                    static_cast<float>((start(velocities_) + allowed) / root),
                    static_cast<float>((path_start + room) / root), static_cast<float>(root),
                    static_cast<float>(path_start / root)});
@@ -174,8 +175,8 @@ double Sweeps::start_speed(int row) const {
 double Sweeps::path_speed(int row) const {
   const Row& r = rows_[at(row)];
   const Line& line = lines_[at(row)];
-  return static_cast<double>(((line.a * states_[at(r.a)].path + line.b * states_[at(r.b)].path).sum() + r.path_start) *
-                             r.root);
+  return static_cast<double>(
+      ((line.a * states_[at(r.a)].path + line.b * states_[at(r.b)].path).sum() + r.path_start) * r.root);
 }
 
 void Sweeps::work_out(std::vector<Twist>& velocities, std::vector<Twist>& paths) const {
@@ -205,8 +206,9 @@ double Sweeps::residual() const {
   float worst = 0, largest = 0;
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     const Row& row = rows_[r];
-    const float w = (lines_[r].a * states_[at(row.a)].velocity + lines_[r].b * states_[at(row.b)].velocity).sum() +
-                    row.allowed;
+    const float w =
+        (lines_[r].a * states_[at(row.a)].velocity + lines_[r].b * states_[at(row.b)].velocity).sum() +
+        row.allowed;
     if (row.allowed < kNever) largest = std::max(largest, std::abs(row.allowed));
     worst = std::max(worst, std::abs(std::min(row.impulse, w)));
   }

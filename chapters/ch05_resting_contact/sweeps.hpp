@@ -37,7 +37,9 @@ class Sweeps {
   // The row's impulse was wrong: it has none from now on. Velocities must be swept again.
   void drop(int row);
 
-  double impulse(int row) const { return static_cast<double>(of_row(row).impulse) / static_cast<double>(of_row(row).root); }  // N s
+  double impulse(int row) const {
+    return static_cast<double>(of_row(row).impulse) / static_cast<double>(of_row(row).root);
+  }                                   // N s
   double start_speed(int row) const;  // J v_0, m/s
   double path_speed(int row) const;   // J y
   // In double precision, from the impulses.
