@@ -37,6 +37,7 @@ struct ContactPoint {
   double force = 0;       // N, mean of the last plan: a guess for the next
   bool lasts = false;     // the last plan pushed here, all the time
 
+  // ANCHOR: gap
   Vec3 normal_at(const Pose& pose_a, const Pose& pose_b) const {
     if (balls) return (pose_b * b.local - pose_a * a.local).normalized();
     return (of_b ? pose_b : pose_a).rotation * local_normal;
@@ -49,6 +50,7 @@ struct ContactPoint {
   double gap_at(const Pose& pose_a, const Pose& pose_b) const {
     return normal_at(pose_a, pose_b).dot(on_b(pose_a, pose_b) - on_a(pose_a, pose_b));
   }
+  // ANCHOR_END: gap
 };
 
 // Two bodies that come near each other, and what is known of the gap between them.

@@ -21,12 +21,14 @@ double bend_seen_from(const Track& viewer, const Track& body, double dt) {
 
 // The least that a function can be on [0, 1] that is `start` and `end` at its ends, and lies no more than
 // 4 sag x (1 - x) below the line between them.
+// ANCHOR: least
 double least_between(double start, double end, double sag) {
   const double slope = end - start - 4 * sag;  // at the start
   if (slope >= 0) return start;
   const double x = sag > 0 ? std::min(1.0, -slope / (8 * sag)) : 1.0;
   return start + x * (slope + 4 * sag * x);
 }
+// ANCHOR_END: least
 
 double bend_in_the_world(const Track& a, const Track& b) {
   return (b.acceleration - a.acceleration).norm() + a.spin_rate * a.spin_rate * a.reach +

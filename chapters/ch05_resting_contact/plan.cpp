@@ -191,6 +191,7 @@ double PlanMaker::end_speed(const Row& row, const Track& a, const Track& b) cons
 }
 
 // Solves until the gaps at the end are what the rows say of them.
+// ANCHOR: close_ends
 bool PlanMaker::close_ends() {
   for (Row& row : rows_) row.most_push = kNoLimit;
   for (int round = 0; round < options_.most_rounds; ++round) {
@@ -212,6 +213,7 @@ bool PlanMaker::close_ends() {
   }
   return true;
 }
+// ANCHOR_END: close_ends
 
 // Whether all that push are in contact at the end: no impulse acts across more than the margin.
 bool PlanMaker::is_closed() const {
@@ -412,6 +414,7 @@ void PlanMaker::settle() {
   }
 }
 
+// ANCHOR: plan_of
 world::Plan PlanMaker::plan_of(int member) const {
   const std::size_t i = at(member);
   world::Plan plan;
@@ -423,6 +426,7 @@ world::Plan PlanMaker::plan_of(int member) const {
   plan.turn = (angular - members_[i].state.spin) / length_;
   return plan;
 }
+// ANCHOR_END: plan_of
 
 std::vector<PlannedRow> PlanMaker::rows() const {
   std::vector<PlannedRow> rows;
