@@ -73,7 +73,7 @@ def push(_: Path) -> plt.Figure:
         if free != end:
             axes.plot([0, 1], [gap, free], color=GREY, ls="--")
             arrow(axes, (1, free), (1, end), ORANGE, 2)
-            note(axes, (1.04, 0.5 * (free + end)), "T a z", ORANGE, ha="left")
+            note(axes, (1.04, 0.5 * (free + end)), "by z", ORANGE, ha="left")
             note(axes, names[1], "with u", GREY)
         axes.plot([0, 1], [gap, end], "o", color=DARK, ms=5)
         note(axes, names[0], "with w" if free != end else "with w = u", BLUE)
@@ -177,7 +177,7 @@ def turning_plane(_: Path) -> plt.Figure:
     reach = 0.5 * np.hypot(*size_b)
     turning = abs(spin_b - spin_a)
     seen = np.linalg.norm(velocity - spin_a * np.array([-start[1], start[0]])) + spin_a * np.linalg.norm(velocity) + turning * reach
-    k = turning * (abs(spin_a) + abs(spin_b)) * reach + spin_a**2 * (np.linalg.norm(start) + np.linalg.norm(velocity)) + 2 * spin_a * seen
+    bent = turning * (abs(spin_a) + abs(spin_b)) * reach + spin_a**2 * (np.linalg.norm(start) + np.linalg.norm(velocity)) + 2 * spin_a * seen
     line = (1 - x) * true[0] + x * true[-1]
     figure, (scene, axes) = plt.subplots(1, 2, figsize=(9.2, 3.7))
     bare(scene, "Two boxes at both ends of their paths, and A's plane")
@@ -195,15 +195,15 @@ def turning_plane(_: Path) -> plt.Figure:
     scene.set(xlim=(-1.85, 1.8), ylim=(-0.9, 1.95))
     axes.plot(x, true, color=BLUE)
     axes.plot(x, line, color=GREY, ls=":")
-    axes.plot(x, line - 0.5 * k * x * (1 - x), color=RED, ls="--")
+    axes.plot(x, line - 0.5 * bent * x * (1 - x), color=RED, ls="--")
     axes.axhline(0, color=DARK, lw=1.2)
     axes.plot([0, 1], [true[0], true[-1]], "o", color=DARK, ms=5)
-    length(axes, (0.5, line[100]), (0.5, line[100] - k / 8), "", (0, 0))
-    note(axes, (0.485, line[100] - 0.013), "sag kT²/8", ha="right")
+    length(axes, (0.5, line[100]), (0.5, line[100] - bent / 8), "", (0, 0))
+    note(axes, (0.48, line[100] - 0.016), "the sag", ha="right")
     note(axes, (0.03, true[0] + 0.006), "σ₀", ha="left")
     note(axes, (0.985, true[-1] + 0.02), "σ₁", ha="right")
     note(axes, (0.78, true[155] - 0.014), "the gap", BLUE)
-    note(axes, (0.13, line[40] - 0.08 * k - 0.02), "proved", RED)
+    note(axes, (0.13, line[40] - 0.08 * bent - 0.02), "proved", RED)
     axes.set(title="Gap along that plane", xlabel="part x of the time", xlim=(-0.03, 1.03), ylim=(-0.015, true[0] + 0.03))
     return figure
 
