@@ -218,7 +218,7 @@ def unproved(_: Path) -> plt.Figure:
         arrow(axes, start, end, GREY, 1.2)
         if text:
             note(axes, where, text, GREY, fontsize=8.5, **more)
-    cell(1.35, 4.3, "1  the gap is larger\nthan the way")
+    cell(1.35, 4.3, "1  too slow to meet\nin the time T")
     cell(4.35, 4.3, "2  one plane keeps\nthem apart")
     cell(7.35, 4.3, "3  conservative\nadvancement")
     to((2.6, 4.3), (3.1, 4.3), "no", (2.85, 4.48))
@@ -235,7 +235,7 @@ def unproved(_: Path) -> plt.Figure:
     cell(7.35, 1.75, "the points at the path's end:\nare there new ones?", width=3.1)
     cell(11.75, 1.75, "an event: the plan ends\nwhere they meet, at h/4", ORANGE, "#FFF4DC", 2.7)
     to((8.9, 1.75), (10.4, 1.75), "fast, and not\nin contact", (9.64, 2.13))
-    cell(7.35, 0.3, "they become rows: solve\nagain, up to four times", BLUE, "#E3EEF6", 3.1)
+    cell(7.35, 0.3, "they become rows: solve\nagain, up to four rounds", BLUE, "#E3EEF6", 3.1)
     to((7.35, 1.32), (7.35, 0.73), "yes", (7.45, 1.02), ha="left")
     cell(2.35, 1.0, "not proved: halve the plan;\nin a crowd, shorten the paths", ORANGE, "#FFF4DC", 3.4)
     to((5.8, 1.65), (4.05, 1.2), "no", (4.9, 1.62))
