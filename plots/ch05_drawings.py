@@ -27,9 +27,11 @@ def main() -> None:
     try:
         if not options.run.is_dir():
             raise PlotError(f"{options.run}: no such folder")
+        folder = options.out or options.run
+        folder.mkdir(parents=True, exist_ok=True)
         for name in options.only:
             figure = DRAWINGS[name](options.run)
-            save(figure, (options.out or options.run) / f"{name}.{options.kind}")
+            save(figure, folder / f"{name}.{options.kind}")
             plt.close(figure)
     except PlotError as error:
         print(f"ch05_drawings.py: {error}", file=sys.stderr)

@@ -1,5 +1,5 @@
-"""Chapter 5's drawings of the margin, of plans and of the instant's law, from the formulas of its text; two of them with points
-from runs beside. Drawn by ch05_drawings.py."""
+"""Chapter 5's drawings of the margin, of plans and of the instant's law, from the formulas of its text; `halves` has a run's
+points beside them. Drawn by ch05_drawings.py."""
 
 import drawing_python  # noqa: F401  first: it finds a Python that can draw
 
