@@ -37,6 +37,7 @@ struct ContactPoint {
   double force = 0;       // N, mean of the last plan: a guess for the next
   bool lasts = false;     // in contact all through the last plan, which pushed the two bodies
 
+  // ANCHOR: gap
   Vec3 normal_at(const Pose& pose_a, const Pose& pose_b) const {
     if (balls) return (pose_b * b.local - pose_a * a.local).normalized();
     return (of_b ? pose_b : pose_a).rotation * local_normal;
@@ -49,6 +50,7 @@ struct ContactPoint {
   double gap_at(const Pose& pose_a, const Pose& pose_b) const {
     return normal_at(pose_a, pose_b).dot(on_b(pose_a, pose_b) - on_a(pose_a, pose_b));
   }
+  // ANCHOR_END: gap
   // Whether another point of the same pair is at the same place, to `near` (m), with the same normal.
   bool is_same(const ContactPoint& other, double near) const {
     return key == other.key && of_b == other.of_b && (local_normal - other.local_normal).norm() < 1e-6 &&

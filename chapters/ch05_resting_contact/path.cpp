@@ -49,6 +49,7 @@ double bend_seen_from(const Moving& viewer, const Moving& body, double dt) {
 // ANCHOR: least
 // The least that a function can be on [0, 1] that is `start` and `end` at its ends, and lies no more than
 // 4 sag x (1 - x) below the line between them.
+// ANCHOR: least
 double least_between(double start, double end, double sag) {
   const double slope = end - start - 4 * sag;  // at the start
   if (slope >= 0) return start;

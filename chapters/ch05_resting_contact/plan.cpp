@@ -39,6 +39,7 @@ double wanted_gap(double gap, double margin) {
   return std::max(gap + kCorrect * (rest - gap), kLeastGap * margin);
 }
 
+// ANCHOR: course_of
 world::Plan course_of(const Member& member, const Twist& path, const Twist& end, double length) {
   world::Plan course;
   course.linear = path.linear;
@@ -47,6 +48,7 @@ world::Plan course_of(const Member& member, const Twist& path, const Twist& end,
   course.turn = (end.angular - member.state.spin) / length;
   return course;
 }
+// ANCHOR_END: course_of
 
 PlanMaker::Result PlanMaker::make(const world::World& world, const Island& island, double now, double length,
                                   const PlanOptions& options) {
@@ -179,6 +181,7 @@ double PlanMaker::end_speed(const Row& row, const std::vector<RigidBody>& bodies
 }
 
 // Solves until the gaps at the end are what the rows say of them.
+// ANCHOR: close_ends
 bool PlanMaker::close_ends() {
   for (Row& row : rows_) row.most_push = kNoLimit;
   for (int round = 0; round < kMostRounds; ++round) {
@@ -200,6 +203,7 @@ bool PlanMaker::close_ends() {
   }
   return true;
 }
+// ANCHOR_END: close_ends
 
 // The points that an unproved pair has at the end of its path become rows; whether there are new ones. A pair that was not
 // in contact and comes in fast there is an event instead.
