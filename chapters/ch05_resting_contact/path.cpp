@@ -46,7 +46,6 @@ double bend_seen_from(const Moving& viewer, const Moving& body, double dt) {
   return bend + w * w * (apart.norm() + dt * speed) + 2 * w * seen;
 }
 
-// ANCHOR: least
 // The least that a function can be on [0, 1] that is `start` and `end` at its ends, and lies no more than
 // 4 sag x (1 - x) below the line between them.
 // ANCHOR: least
