@@ -398,6 +398,23 @@ TEST(Program, TellsImpactsFromContactsThatLast) {
   EXPECT_EQ(counted, impacts);
 }
 
+// What corrections added is in steps.csv: boxes that touched are lifted, and that is all their energy; none of
+// their paths is shortened.
+TEST(Program, TellsWhatCorrectionsAdd) {
+  const auto folder = scratch("corrections");
+  ASSERT_EQ(run(short_stack(folder) + " --set step.duration=1").exit_code, 0);
+  const Table steps = read_table(folder / "steps.csv");
+  double added = 0;
+  for (int row = 0; row < steps.rows(); ++row) {
+    added += steps.at(row, "correction_energy");
+    EXPECT_EQ(steps.at(row, "shortened"), 0) << row;
+    EXPECT_EQ(steps.at(row, "lost_impulse"), 0) << "N s, row " << row;
+  }
+  EXPECT_EQ(steps.at(0, "correction_energy"), 0) << "J, before the first frame";
+  EXPECT_NEAR(added, steps.at(steps.rows() - 1, "energy") - steps.at(0, "energy"), 1e-6) << "J";
+  EXPECT_GT(added, 0.1) << "J";
+}
+
 // Without the key everything is chapter 4's, to the byte; with it, chapter 4's scenes lose no time any more.
 TEST(Program, WithoutAnEnvelopeIsChapterFour) {
   const auto folder = scratch("both");
