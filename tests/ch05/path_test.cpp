@@ -1,4 +1,4 @@
-// Patches and ways through a frame against brute force, and a block that tips in closed form.
+// Patches and paths through a frame against brute force, and a block that tips in closed form.
 #include "ch05_resting_contact/path.hpp"
 
 #include <gtest/gtest.h>
