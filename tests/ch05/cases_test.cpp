@@ -1,9 +1,8 @@
 // Scenes that once went wrong, each with its right answer.
 #include <gtest/gtest.h>
 
-#include <numbers>
-
 #include "oracles.hpp"
+#include "support/chain_link.hpp"
 
 namespace {
 
@@ -93,36 +92,10 @@ const std::string falls = "gravity: [0, 0, -9.81]\n";
 const std::string floor_shape = "  floor: {box: {size: [40, 40, 1]}}\n";
 const std::string floor_body = "bodies:\n  - {shape: floor, static: true, position: [0, 0, -0.5]}\n";
 
-// A closed link of a chain: a tube of 0.1 m about two half circles of 0.4 m and two sides of 0.5 m, in the x-y plane.
-void write_link(const std::filesystem::path& file, int arc, int around) {
-  std::vector<std::pair<Vec3, Vec3>> line;  // the tube's middle, and the direction away from the link's
-  for (const double side : {1.0, -1.0})
-    for (int i = 0; i <= arc; ++i) {
-      const double angle = std::numbers::pi * (static_cast<double>(i) / arc - 0.5);
-      const Vec3 out = side * Vec3(std::cos(angle), std::sin(angle), 0);
-      line.push_back({0.25 * side * Vec3::UnitX() + 0.4 * out, out});
-    }
-  std::ofstream out(file);
-  for (const auto& [middle, away] : line)
-    for (int k = 0; k < around; ++k) {
-      const double angle = 2 * std::numbers::pi * k / around;
-      const Vec3 p = middle + 0.1 * (std::cos(angle) * away + std::sin(angle) * Vec3::UnitZ());
-      out << "v " << number(p.x()) << " " << number(p.y()) << " " << number(p.z()) << "\n";
-    }
-  const int rings = static_cast<int>(line.size());
-  const auto vertex = [&](int ring, int k) { return 1 + ring % rings * around + k % around; };
-  for (int ring = 0; ring < rings; ++ring)
-    for (int k = 0; k < around; ++k) {
-      const int a = vertex(ring, k), b = vertex(ring + 1, k), c = vertex(ring + 1, k + 1),
-                d = vertex(ring, k + 1);
-      out << "f " << a << " " << b << " " << c << "\nf " << a << " " << c << " " << d << "\n";
-    }
-}
-
 // A straight chain along x, every second link turned by a quarter; the first one, or both ends, are held.
 std::string chain(int links, double slack, const std::string& envelope, bool both_ends) {
   const auto file = scratch("link") / "link.obj";
-  write_link(file, 16, 16);
+  write_chain_link(file, 16, 16);
   std::string text = head(0.01, envelope, falls + "gyroscopic: true\n") + "  link: {mesh: " + file.string() +
                      ", density: 7680}\nbodies:\n";
   for (int i = 0; i < links; ++i)
