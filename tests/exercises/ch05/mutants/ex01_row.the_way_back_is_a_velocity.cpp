@@ -1,4 +1,4 @@
-// Caught by: Ex01Row.ATouchOpensToTheRestGap
+// Caught by: Ex01Row.NoFrameMakesEnergy
 // The displacement is put into the velocity, too.
 #include "ex01_row.hpp"
 
