@@ -160,7 +160,7 @@ TEST(Path, ProvesOnlyWhatIsClear) {
 }
 
 // What is known of a pair's gap from the frame before, moved on, is never more than it is; and where it says
-// so little that the way's proof would be let come near to an overlap, it is searched anew.
+// so little that the path's proof would be let come near to an overlap, it is searched anew.
 TEST(Contacts, KnowSmallGapsWell) {
   Random random(5);
   const double envelope = 2e-3;

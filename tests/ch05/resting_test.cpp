@@ -173,17 +173,17 @@ TEST(Landing, WithoutBounceLosesNoTime) {
 }
 
 // Two stacks of three: both fall asleep, and cost no row; a ball wakes the one that it falls on, and nobody
-// else; then that one sleeps again, with the ball on top. As an island, and as a crowd.
+// else; then that one sleeps again, with the ball on top. As an island, and as a pile.
 TEST(Sleep, WakesWhoeverIsTouched) {
-  for (const int crowd : {400, 3}) {
+  for (const int pile : {400, 3}) {
     Simulation s(
         "sleep: {after: 0.2, speed: 0.01}\n" + head +
             "  - {shape: box, grid: {count: [2, 1, 3], spacing: [5, 1, 1.0001]}, position: [0, 0, 0.5001]}\n"
             "  - {shape: ball, position: [5, 0, 8]}\n",
-        1 / 60.0, {.pile = crowd});
+        1 / 60.0, {.pile = pile});
     s.run(0.8);
-    EXPECT_EQ(s.last.step.lcp_rows, 0) << crowd;
-    for (int body = 1; body <= 6; ++body) EXPECT_TRUE(s.world.bodies[body].asleep) << crowd << ": " << body;
+    EXPECT_EQ(s.last.step.lcp_rows, 0) << pile;
+    for (int body = 1; body <= 6; ++body) EXPECT_TRUE(s.world.bodies[body].asleep) << pile << ": " << body;
     int wakes = 0;
     double force = 0;  // N, on the floor, in the last frame in which anybody was awake
     for (int frame = 0; frame < 90; ++frame) {
@@ -193,14 +193,14 @@ TEST(Sleep, WakesWhoeverIsTouched) {
             }});
       wakes += s.last.step.wakes;
       if (now > 0) force = now;
-      for (const int body : {1, 3, 5}) ASSERT_TRUE(s.world.bodies[body].asleep) << crowd << ": " << body;
+      for (const int body : {1, 3, 5}) ASSERT_TRUE(s.world.bodies[body].asleep) << pile << ": " << body;
     }
-    EXPECT_EQ(wakes, 3) << crowd;
-    // A crowd is solved to a residual of a thousandth.
-    EXPECT_NEAR(force, 80, crowd == 3 ? 0.08 : 1e-3) << crowd << ": N, three boxes and the ball";
-    for (int body = 1; body <= 7; ++body) EXPECT_TRUE(s.world.bodies[body].asleep) << crowd << ": " << body;
-    EXPECT_EQ(s.lost, 0) << crowd;
-    EXPECT_GT(s.smallest_gap, 0) << crowd;
+    EXPECT_EQ(wakes, 3) << pile;
+    // A pile is solved to a residual of a thousandth.
+    EXPECT_NEAR(force, 80, pile == 3 ? 0.08 : 1e-3) << pile << ": N, three boxes and the ball";
+    for (int body = 1; body <= 7; ++body) EXPECT_TRUE(s.world.bodies[body].asleep) << pile << ": " << body;
+    EXPECT_EQ(s.lost, 0) << pile;
+    EXPECT_GT(s.smallest_gap, 0) << pile;
   }
 }
 
@@ -259,26 +259,26 @@ TEST(Program, TheScenesSolverSolvesRestingContacts) {
 }
 
 // A driven plate pushes two boxes against a wall, and cannot: nobody is run through, neither by the exact
-// solution nor in a crowd, and what the plate does on the way is told.
+// solution nor in a pile, and what the plate does on the way is told.
 TEST(Driven, APlateThatCannotGoOnIsStopped) {
-  for (const int crowd : {400, 3}) {
+  for (const int pile : {400, 3}) {
     Simulation s(
         "step: {dt: 0.01, duration: 1}\nenvelope: 5.0e-4\nshapes:\n"
         "  box: {box: {size: [1, 1, 1]}, mass: 2}\nbodies:\n"
         "  - {shape: box, kinematic: true, position: [-1.5, 0, 0], velocity: [1, 0, 0]}\n"
         "  - {shape: box, position: [0, 0, 0]}\n  - {shape: box, position: [1.2, 0, 0]}\n"
         "  - {shape: box, static: true, position: [3, 0, 0]}\n",
-        1 / 60.0, {.pile = crowd});
+        1 / 60.0, {.pile = pile});
     double work = 0;
     for (int frame = 0; frame < 180; ++frame) {
       s.run(1 / 60.0);
       work += s.last.step.kinematic_work;
       for (int body = 0; body < 3; ++body)
         ASSERT_GT(s.body(body + 1).position.x() - s.body(body).position.x(), 1)
-            << crowd << ", frame " << frame;
+            << pile << ", frame " << frame;
     }
-    EXPECT_GT(s.smallest_gap, 0) << crowd;
-    EXPECT_GE(work, 1) << crowd << ": J, of the first push";
+    EXPECT_GT(s.smallest_gap, 0) << pile;
+    EXPECT_GE(work, 1) << pile << ": J, of the first push";
   }
 }
 
