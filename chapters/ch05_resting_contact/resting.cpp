@@ -169,6 +169,7 @@ void Resting::go_on(Instant& instant, Crowd& crowd) {
   const double end = instant.now < (0.5 - kShortest) * dt_ ? 0.5 * dt_ : dt_;
   CrowdOptions options;
   options.rest_speed = envelope() / dt_;
+  options.sweeps = options_.sweeps;
   options.told = static_cast<bool>(instant.listeners.impact);
   const auto make = [&] {
     return crowd_planner_.make(instant.world, members, instant.now, end - instant.now, options);

@@ -1,4 +1,4 @@
-// Patches and ways through a frame against brute force, and a block that tips in closed form.
+// Patches and paths through a frame against brute force, and a block that tips in closed form.
 #include "ch05_resting_contact/path.hpp"
 
 #include <gtest/gtest.h>
@@ -160,7 +160,7 @@ TEST(Path, ProvesOnlyWhatIsClear) {
 }
 
 // What is known of a pair's gap from the frame before, moved on, is never more than it is; and where it says
-// so little that the way's proof would be let come near to an overlap, it is searched anew.
+// so little that the path's proof would be let come near to an overlap, it is searched anew.
 TEST(Contacts, KnowSmallGapsWell) {
   Random random(5);
   const double envelope = 2e-3;
