@@ -1,16 +1,36 @@
 #include "ch05_resting_contact/island_solver.hpp"
 
+#include <algorithm>
+#include <vector>
+
 #include "ch03_impulse_lcp/delassus.hpp"
 #include "ch03_impulse_lcp/impact.hpp"
 #include "ch03_impulse_lcp/solver.hpp"
 
 namespace fc::resting {
+namespace {
+
+// m/s, the fastest of the points of contact, on either body.
+double fastest(std::span<const RigidBody> bodies, std::span<const lcp::Contact> contacts) {
+  double speed = 0;
+  for (const lcp::Contact& c : contacts)
+    for (const int body : {c.body_a, c.body_b})
+      speed = std::max(speed, bodies[static_cast<std::size_t>(body)].velocity_at(c.point).norm());
+  return speed;
+}
+
+bool any_driven(std::span<const RigidBody> bodies) {
+  return std::any_of(bodies.begin(), bodies.end(), [](const RigidBody& body) {
+    return body.is_static() && !(body.velocity.isZero(0) && body.spin.isZero(0));
+  });
+}
+
+}  // namespace
 
 IslandResult IslandSolver::solve(std::span<RigidBody> bodies, std::span<const lcp::Contact> contacts,
                                  std::span<const double> allowed, std::span<double> z,
                                  const IslandOptions& options) {
-  constexpr int kSweeps = 5000;
-  constexpr double kResidual = 1e-5;
+  constexpr double kMostLeverage = 100;
   lcp::ImpactProblem problem = lcp::assemble(bodies, contacts);
   const auto n = static_cast<Eigen::Index>(contacts.size());
   problem.b += Eigen::Map<const VecX>(allowed.data(), n);
@@ -24,15 +44,17 @@ IslandResult IslandSolver::solve(std::span<RigidBody> bodies, std::span<const lc
                         {.limit = chosen.limit, .tolerance = chosen.tolerance, .start = start});
   } else {
     dantzig_.solve(rows, {.start = start}, result);
-    if (result.status != lcp::Status::solved)
-      result = lcp::solve(rows, lcp::Method::pgs, {.limit = kSweeps, .tolerance = kResidual, .start = start});
   }
   const int steps = options.chosen ? result.pivots : 0;
   if (result.status != lcp::Status::solved) return {false, result.residual, steps, result.status};
-  for (Eigen::Index i = 0; i < n; ++i) {
-    z[static_cast<std::size_t>(i)] = result.z[i];
+  const std::vector<RigidBody> before(bodies.begin(), bodies.end());
+  for (Eigen::Index i = 0; i < n; ++i)
     if (result.z[i] > 0) lcp::apply_impulse(bodies, contacts[static_cast<std::size_t>(i)], result.z[i]);
+  if (any_driven(bodies) && fastest(bodies, contacts) > kMostLeverage * fastest(before, contacts)) {
+    std::copy(before.begin(), before.end(), bodies.begin());
+    return {false, result.residual, steps, lcp::Status::limit};
   }
+  Eigen::Map<VecX>(z.data(), n) = result.z;
   return {true, result.residual, steps, result.status};
 }
 

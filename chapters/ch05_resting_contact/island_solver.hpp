@@ -24,8 +24,9 @@ struct IslandResult {
 // Finds impulses z >= 0 (N s), n, for contacts between bodies with
 //   w = J v+ + allowed >= 0,   z'w = 0,   v+ = v + M^-1 J' z,
 // and changes the bodies' velocities to v+: contact i may close in with at most allowed_i (m/s; negative: it
-// must part). z comes in as a guess. By Dantzig's method; where that fails, by projected Gauss-Seidel to 1e-5; by the chosen
-// solver to its tolerance. Unless solved, velocities stay as they are.
+// must part). z comes in as a guess. By Dantzig's method; by the chosen solver to its tolerance. Unless solved, velocities stay
+// as they are. What would throw bodies a hundred times as fast as anything was is no solution if a kinematic body does it: it
+// presses bodies out from between others, with all the force in the world.
 class IslandSolver {
  public:
   IslandResult solve(std::span<RigidBody> bodies, std::span<const lcp::Contact> contacts,
