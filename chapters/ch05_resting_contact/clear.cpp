@@ -1,0 +1,469 @@
+#include "ch05_resting_contact/clear.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "ch03_impulse_lcp/delassus.hpp"
+#include "ch03_impulse_lcp/impact.hpp"
+#include "ch03_impulse_lcp/solver.hpp"
+#include "ch05_resting_contact/envelope.hpp"
+#include "common/scene_failure.hpp"
+
+namespace fc::resting {
+
+using world::Listeners;
+using world::World;
+
+namespace {
+
+constexpr int kMostBounces = 8;            // in one instant; then nothing bounces any more
+constexpr int kMostRounds = 8;             // in which a plan's ends are measured again
+constexpr int kMostProofs = 3;             // of one plan, each with more rows
+constexpr double kClosed = 1e-6;           // of the margin: how exactly contacts close at a plan's end
+constexpr double kShortest = 1.0 / 65536;  // of a frame: no plan is shorter
+// Of what a gap lacks of the rest gap, so much is put right in a plan; and gaps below this part of the margin at once.
+constexpr double kCorrect = 0.2, kLeastGap = 0.25;
+
+std::size_t at(int index) {
+  return static_cast<std::size_t>(index);
+}
+
+std::vector<RigidBody> states_of(const std::vector<Member>& members) {
+  std::vector<RigidBody> states;
+  for (const Member& member : members) states.push_back(member.state);
+  return states;
+}
+
+// The contact at a point of two members (a and b are their places), as they stand in `bodies`.
+lcp::Contact contact_at(const World& world, const std::vector<Member>& members,
+                        const std::vector<RigidBody>& bodies, int a, int b, const ContactPoint& point) {
+  const Pose pose_a = bodies[at(a)].pose(), pose_b = bodies[at(b)].pose();
+  const double gap = point.gap_at(pose_a, pose_b);
+  return {a,   b, point.middle(pose_a, pose_b),       point.normal_at(pose_a, pose_b),
+          gap, 0, world.turns(members[at(a)].number), world.turns(members[at(b)].number)};
+}
+
+VecX velocities(const std::vector<RigidBody>& bodies, const std::vector<lcp::Contact>& contacts) {
+  VecX v(static_cast<Eigen::Index>(contacts.size()));
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    v[static_cast<Eigen::Index>(i)] = lcp::contact_velocity(bodies, contacts[i]);
+  return v;
+}
+
+bool anything_closes(const std::vector<RigidBody>& bodies, const std::vector<lcp::Contact>& contacts) {
+  return !contacts.empty() &&
+         velocities(bodies, contacts).minCoeff() < -lcp::approach_rounding(bodies, contacts);
+}
+
+void apply(std::vector<RigidBody>& bodies, const std::vector<lcp::Contact>& contacts, const VecX& impulses) {
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    if (const double z = impulses[static_cast<Eigen::Index>(i)]; z > 0)
+      lcp::apply_impulse(bodies, contacts[i], z);
+}
+
+// Chapter 3's problem with another right-hand side, solved by its Dantzig: impulses z >= 0 after which contact i closes with
+// no more than room_i (m/s), and which act only where it closes with just that. No solution: velocities stay, and z is 0.
+bool push(std::vector<RigidBody>& bodies, const std::vector<lcp::Contact>& contacts, const VecX& room,
+          VecX& z) {
+  z = VecX::Zero(room.size());
+  if (contacts.empty()) return true;
+  const lcp::ImpactProblem problem = lcp::assemble(bodies, contacts);
+  const VecX b = problem.v_before + room;
+  const lcp::LcpResult result = lcp::solve({problem.A, b});
+  if (result.status != lcp::Status::solved) return false;
+  z = result.z;
+  apply(bodies, contacts, z);
+  return true;
+}
+
+// The impulses of a set of contacts, for listeners: bodies by their numbers in the world.
+std::vector<world::ImpactRecord> records_of(const std::vector<Member>& members, double time,
+                                            world::ContactKind kind,
+                                            const std::vector<lcp::Contact>& contacts, const VecX& impulses,
+                                            const VecX& before, const VecX& after) {
+  std::vector<world::ImpactRecord> records;
+  for (Eigen::Index i = 0; i < impulses.size(); ++i) {
+    if (!(impulses[i] > 0)) continue;
+    world::ImpactRecord record;
+    record.time = time;
+    record.contact = contacts[static_cast<std::size_t>(i)];
+    for (int* body : {&record.contact.body_a, &record.contact.body_b}) *body = members[at(*body)].number;
+    record.impulse = {static_cast<int>(i), 0, before[i], after[i], impulses[i]};
+    record.kind = kind;
+    records.push_back(record);
+  }
+  return records;
+}
+
+SceneFailure failure(const char* what, std::size_t rows) {
+  return SceneFailure(
+      fmt::format("{} contacts that belong together {}; shorten step.dt, or take less unequal masses", rows,
+                  what),
+      "envelope");
+}
+
+// The points of an island that are in contact, with what the pairs say of restitution.
+struct Touching {
+  std::vector<lcp::Contact> contacts;  // bodies by their places among the members
+  VecX restitution;
+  double fastest = 0;  // m/s, negative, of the points at which no plan has pushed up to now
+
+  Touching(const World& world, const Island& island, const std::vector<RigidBody>& bodies, double margin) {
+    std::vector<double> e;
+    for (const IslandPair& pair : island.pairs)
+      for (const ContactPoint& point : pair.contacts->points) {
+        const lcp::Contact contact = contact_at(world, island.members, bodies, pair.a, pair.b, point);
+        if (contact.gap > margin) continue;
+        contacts.push_back(contact);
+        e.push_back(world.restitution_of(pair.contacts->a, pair.contacts->b));
+        if (!point.lasts) fastest = std::min(fastest, lcp::contact_velocity(bodies, contact));
+      }
+    restitution = Eigen::Map<const VecX>(e.data(), static_cast<Eigen::Index>(e.size()));
+  }
+};
+
+}  // namespace
+
+// A plan in the making: of an island, and of all that no impulse moves.
+struct ClearDraft {
+  // A point at which two members push, and what is known of its gap at the plan's end.
+  struct Row {
+    PairContacts* pair;
+    ContactPoint point;
+    double keep, want;  // m, what velocities must leave of it, and what paths must
+    double bend = 0;    // m, by which it differs from its first order
+    double taken = std::numeric_limits<double>::infinity();  // m/s: so fast the point closes there
+    double end = 0;                                          // m
+  };
+  const World& world;
+  Contacts& contacts;
+  double now, length;  // s
+  std::vector<Member> members;
+  std::vector<RigidBody> mean, fast, path, ends;  // with velocities u, w, and y; at the end of y, with w
+  std::vector<Track> tracks;                      // along y
+  std::vector<char> planned;                      // of each member: it is pushed, or ends in contact
+  std::vector<Row> rows;
+  std::vector<lcp::Contact> starts;  // of the rows, now; bodies by their places among the members
+  VecX z, c;                         // N s, of the rows: impulses, and those of corrections
+
+  ClearDraft(const World& world_, Contacts& contacts_, const Island& island, double now_, double length_);
+  void add_row(PairContacts& pair, int a, int b, const ContactPoint& point, double gap);
+  VecX room(bool correcting) const;
+  void follow_paths();
+  double measure(std::size_t number);
+  bool is_wanted(int i, int j) const;
+  bool is_clear(int i, int j);
+
+  bool close_ends();
+  bool prove();
+  bool make();
+};
+
+ClearDraft::ClearDraft(const World& world_, Contacts& contacts_, const Island& island, double now_,
+                       double length_)
+    : world(world_), contacts(contacts_), now(now_), length(length_), members(island.members) {
+  const auto is_member = [&](int body) {
+    return std::any_of(members.begin(), members.end(), [&](const Member& m) { return m.number == body; });
+  };
+  for (int body = 0; body < static_cast<int>(world.bodies.size()); ++body)
+    if (!world.yields(body) && !is_member(body)) members.push_back({body, world.state_at(body, now), false});
+  mean = states_of(members);
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    if (members[i].dynamic && world.effects.gravity)
+      mean[i].velocity += 0.5 * length * world.gravity_on(mean[i]);
+    tracks.push_back(track_of(world, members[i].number, now, length));
+  }
+  for (const IslandPair& pair : island.pairs)
+    for (const ContactPoint& point : pair.contacts->points)
+      add_row(*pair.contacts, pair.a, pair.b, point,
+              contact_at(world, members, mean, pair.a, pair.b, point).gap);
+}
+
+void ClearDraft::add_row(PairContacts& pair, int a, int b, const ContactPoint& point, double gap) {
+  const double rest = 0.5 * contacts.margin(), keep = std::min(gap, rest);
+  rows.push_back({&pair, point, keep,
+                  std::max(keep + kCorrect * (rest - keep), std::min(rest, kLeastGap * contacts.margin()))});
+  starts.push_back(contact_at(world, members, mean, a, b, point));
+}
+
+// What each row may lose of its gap per second: for velocities, or for paths. A velocity is made to part by no more than the
+// speed that the plan's end takes back: else it would be energy from nowhere.
+VecX ClearDraft::room(bool correcting) const {
+  VecX room(static_cast<Eigen::Index>(rows.size()));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double spare = (starts[i].gap + rows[i].bend - (correcting ? rows[i].want : rows[i].keep)) / length;
+    room[static_cast<Eigen::Index>(i)] = correcting ? spare : std::max(spare, -rows[i].taken);
+  }
+  return room;
+}
+
+// Where the bodies stand at the end, and who is planned.
+void ClearDraft::follow_paths() {
+  ends = fast;
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    Track& t = tracks[i];
+    if (members[i].dynamic)
+      t = straight_track(members[i].state, path[i].velocity, path[i].spin, t.reach, length);
+    ends[i].position = t.end.position;
+    ends[i].orientation = Quat(t.end.rotation);
+  }
+}
+
+// Looks at a row's gap at the end. Returns by how much its bend was wrong (m).
+double ClearDraft::measure(std::size_t number) {
+  Row& row = rows[number];
+  const lcp::Contact& start = starts[number];
+  const lcp::Contact end = contact_at(world, members, ends, start.body_a, start.body_b, row.point);
+  const double bend = end.gap - start.gap - length * lcp::contact_velocity(path, start);
+  row.end = end.gap;
+  row.taken = std::max(0.0, -lcp::contact_velocity(ends, end));
+  return std::abs(std::exchange(row.bend, bend) - bend);
+}
+
+// Whether the plan has to prove a pair of members: both go by it, or one does, and nothing moves the other.
+bool ClearDraft::is_wanted(int i, int j) const {
+  const auto stays_in = [&](int k) { return planned[at(k)] || !members[at(k)].dynamic; };
+  return stays_in(i) && stays_in(j) && (members[at(i)].dynamic || members[at(j)].dynamic);
+}
+
+// Chapter 4's gap rule for a pair on its way through the plan: it keeps half of its gap, or of the rest gap.
+bool ClearDraft::is_clear(int i, int j) {
+  PairContacts& pair = contacts.pair(members[at(i)].number, members[at(j)].number);
+  if (pair.a != members[at(i)].number) std::swap(i, j);
+  const Track &a = tracks[at(i)], &b = tracks[at(j)];
+  contacts.update(world, pair, a.start, b.start);
+  const double rounding = ca::rounding_term(world.model_of(pair.a).whole(), world.model_of(pair.b).whole(),
+                                            ca::PairPose(a.start, b.start));
+  const double need = 0.5 * std::min(pair.gap, 0.5 * contacts.margin()) - 64 * rounding;
+  if (check_path(world, contacts, pair, a, b, length, need).clear) return true;
+  double gap = 0;
+  const std::size_t known = rows.size();
+  if (pair.gap < contacts.margin())
+    for (const ContactPoint& point : contacts.points_at(world, pair, a.end, b.end, gap))
+      add_row(pair, i, j, point, pair.gap);
+  for (std::size_t row = known; row < rows.size(); ++row) measure(row);
+  return false;
+}
+
+// Points at which a plan pushes are marked: that they close at its end is the other half of their force, and no impact.
+void remember(const ClearDraft& draft) {
+  for (const bool mark : {false, true})
+    for (std::size_t i = 0; i < draft.rows.size(); ++i)
+      for (ContactPoint& point : draft.rows[i].pair->points)
+        if (!mark || (point.key == draft.rows[i].point.key && draft.z[static_cast<Eigen::Index>(i)] > 0))
+          point.lasts = mark;
+}
+
+ClearResting::ClearResting(const Scene& scene, World& world, double dt)
+    : contacts_(world, envelope_of(scene, world)),
+      islands_(contacts_, world.bodies.size()),
+      crowded_(world.bodies.size(), 0),
+      frame_(dt),
+      dt_(dt) {
+  const bool all_convex =
+      std::all_of(world.shapes.begin(), world.shapes.end(), [](const Shape& s) { return s.convex(); });
+  if (!all_convex || world.effects.drag || world.effects.sleep || world.effects.sensors ||
+      world.effects.gyroscopic)
+    throw InputError(scene.mark("envelope").value_or(SourceMark{scene.file.string()}),
+                     "the clear version knows only convex bodies and gravity; take Resting");
+  world.reserve = 0.5 * envelope();
+}
+
+ClearReport ClearResting::step(World& world, const Listeners& listeners) {
+  report_ = {};
+  contacts_.next_frame();
+  const world::StepReport report = world::step_with(*this, world, frame_, listeners);
+  report_.step = report;
+  return report_;
+}
+
+// When a frame begins, a plan ends, or two bodies meet: whom that concerns goes on from there.
+std::vector<int> ClearResting::begin(World& world, double dt, world::StepReport&,
+                                     const Listeners& listeners) {
+  dt_ = dt;
+  plans_.clear();
+  std::vector<int> bodies;
+  for (int body = 0; body < static_cast<int>(world.bodies.size()); ++body)
+    if (world.yields(body)) bodies.push_back(body);
+  return go_on(world, bodies, 0, listeners);
+}
+
+double ClearResting::next_end() const {
+  double first = std::numeric_limits<double>::infinity();
+  for (const Plan& plan : plans_)
+    if (plan.runs) first = std::min(first, plan.end);
+  return first;
+}
+
+std::vector<int> ClearResting::end_plans(World& world, double now, world::StepReport&,
+                                         const Listeners& listeners) {
+  std::vector<int> bodies;
+  for (const Plan& plan : plans_)
+    if (plan.runs && plan.end <= now) bodies.insert(bodies.end(), plan.bodies.begin(), plan.bodies.end());
+  return go_on(world, bodies, now, listeners);
+}
+
+std::vector<int> ClearResting::meet(World& world, int a, int b, double now, world::StepReport&,
+                                    const Listeners& listeners) {
+  std::vector<int> bodies;
+  for (const int body : {a, b})
+    if (world.yields(body)) bodies.push_back(body);
+  return go_on(world, bodies, now, listeners);
+}
+
+void ClearResting::tell(const std::vector<world::ImpactRecord>& records, double share,
+                        const Listeners& listeners) {
+  for (world::ImpactRecord record : records) {
+    record.impulse.impulse *= share;
+    if (share > 0 && listeners.impact) listeners.impact(record);
+  }
+}
+
+// ANCHOR: clear
+// An instant: the plans that it touches end, in each island nothing may close any more, and then the island gets a plan.
+std::vector<int> ClearResting::go_on(World& world, std::vector<int> bodies, double now,
+                                     const Listeners& listeners) {
+  islands_.begin(now);
+  std::vector<int> changed;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {  // the list grows
+    if (islands_.is_in_island(bodies[i])) continue;
+    Island island = islands_.grow(world, bodies[i], crowded_, 0);
+    for (Member& member : island.members) {
+      if (!member.dynamic) continue;
+      end_plan_of(world, member.number, now, bodies, listeners);
+      world.carry(member.number, now, now);
+      member.state = world.bodies[at(member.number)].state;
+      changed.push_back(member.number);
+    }
+    stop_what_closes(world, island, now, listeners);
+    for (const Member& member : island.members)
+      if (member.dynamic) world.set_course(member.number, member.state, now);
+    if (!island.pairs.empty() && now < dt_) plan(world, island, now);
+  }
+  return now < dt_ ? changed : std::vector<int>{};
+}
+
+// All bodies of the plan stand where they are now; gravity and impulses have acted for their share of the time.
+void ClearResting::end_plan_of(World& world, int body, double now, std::vector<int>& bodies,
+                               const Listeners& listeners) {
+  const int number = world.bodies[at(body)].plan.number;
+  if (number < 0) return;
+  Plan& plan = plans_[at(number)];
+  for (const int member : plan.bodies) {
+    world.carry(member, now, now);
+    world.bodies[at(member)].plan = {};
+    bodies.push_back(member);
+  }
+  const double share = (now - plan.start) / (plan.end - plan.start);
+  tell(plan.records, share, listeners);
+  report_.correction_energy += share * plan.lift;
+  plan.runs = false;
+}
+
+// The instant's law (Poisson): a compression stops all that closes; if something came in fast, an expansion gives back the
+// part e of each impulse, but never more energy than the compression took.
+void ClearResting::stop_what_closes(const World& world, Island& island, double now,
+                                    const Listeners& listeners) {
+  std::vector<RigidBody> bodies = states_of(island.members);
+  const Touching touching(world, island, bodies, envelope());
+  const std::vector<lcp::Contact>& contacts = touching.contacts;
+  const bool impact = touching.fastest < -envelope() / dt_;
+  const VecX before = velocities(bodies, contacts), no_room = VecX::Zero(before.size());
+  VecX total = no_room, z;
+  for (int round = 0; round < kMostBounces && anything_closes(bodies, contacts); ++round) {
+    if (!push(bodies, contacts, no_room, z)) throw failure("cannot be stopped", contacts.size());
+    total += z;
+    if (!impact || round + 1 == kMostBounces) continue;
+    const MatX A = lcp::assemble(bodies, contacts).A;
+    const VecX r = touching.restitution.cwiseProduct(z);
+    const double gave = z.dot(A * z), takes = r.dot(A * r), k = takes > gave ? std::sqrt(gave / takes) : 1;
+    apply(bodies, contacts, k * r);
+    total += k * r;
+  }
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (island.members[i].dynamic) island.members[i].state = bodies[i];
+  const auto kind = impact ? world::ContactKind::impact : world::ContactKind::rest;
+  tell(records_of(island.members, now, kind, contacts, total, before, velocities(bodies, contacts)), 1,
+       listeners);
+}
+
+// Pushes (u becomes w) and corrects (w becomes y), until the gaps at the end are what the rows say: a chord method.
+bool ClearDraft::close_ends() {
+  for (Row& row : rows) row.taken = std::numeric_limits<double>::infinity();
+  for (int round = 0; round < kMostRounds; ++round) {
+    fast = mean;
+    if (!push(fast, starts, room(false), z)) return false;
+    path = fast;
+    push(path, starts, room(true), c);  // where there is no room for corrections, gaps stay as they are
+    follow_paths();
+    double worst = 0;
+    for (std::size_t i = 0; i < rows.size(); ++i) worst = std::max(worst, measure(i));
+    if (worst <= kClosed * contacts.margin()) return true;
+  }
+  return false;
+}
+
+// Whether all that push are in contact, at both ends; and all paths are clear of each other. Where they are not, the points
+// that the pair has at the end become rows.
+bool ClearDraft::prove() {
+  planned.assign(members.size(), 0);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const bool pushes = z[static_cast<Eigen::Index>(i)] > 0 || c[static_cast<Eigen::Index>(i)] > 0;
+    if (pushes && std::max(starts[i].gap, rows[i].end) > contacts.margin()) return false;
+    for (const int member : {starts[i].body_a, starts[i].body_b})
+      if (pushes || rows[i].end < contacts.margin()) planned[at(member)] = members[at(member)].dynamic;
+  }
+  bool clear = true;
+  for (int i = 0; i < static_cast<int>(members.size()); ++i)
+    for (int j = 0; j < i; ++j)
+      if (is_wanted(i, j) && !is_clear(i, j)) clear = false;
+  return clear;
+}
+
+bool ClearDraft::make() {
+  std::size_t known = 0;
+  for (int proof = 0; proof < kMostProofs && known < rows.size(); ++proof) {
+    known = rows.size();
+    if (!close_ends()) return false;
+    if (prove()) return true;
+  }
+  return false;
+}
+
+// A plan for the island: to the frame's end, or half as long, and so on, until it is proved.
+void ClearResting::plan(World& world, const Island& island, double now) {
+  for (double length = dt_ - now;; length *= 0.5) {
+    ClearDraft draft(world, contacts_, island, now, length);
+    if (draft.make()) return follow(world, draft);
+    if (length < kShortest * dt_) throw failure("have no plan that can be proved", draft.rows.size());
+    ++report_.halved;
+  }
+}
+
+// The planned bodies go straight on with y, while their velocities change evenly from v to w and the other half of gravity.
+void ClearResting::follow(World& world, const ClearDraft& draft) {
+  const double length = draft.length;
+  Plan plan{draft.now, length == dt_ - draft.now ? dt_ : draft.now + length};
+  for (std::size_t i = 0; i < draft.members.size(); ++i) {
+    if (!draft.planned[i]) continue;
+    const RigidBody &v = draft.members[i].state, &u = draft.mean[i], &w = draft.fast[i], &y = draft.path[i];
+    const Vec3 arrives = w.velocity + (u.velocity - v.velocity);
+    world.bodies[at(draft.members[i].number)].plan = {static_cast<int>(plans_.size()), y.velocity, y.spin,
+                                                      (arrives - v.velocity) / length,
+                                                      (w.spin - v.spin) / length};
+    plan.bodies.push_back(draft.members[i].number);
+    plan.lift -= v.mass * 2 * (u.velocity - v.velocity).dot(y.velocity - w.velocity);
+  }
+  plan.records = records_of(draft.members, draft.now, world::ContactKind::rest, draft.starts, draft.z,
+                            velocities(draft.mean, draft.starts), velocities(draft.fast, draft.starts));
+  remember(draft);
+  plans_.push_back(plan);
+  ++report_.plans;
+}
+// ANCHOR_END: clear
+
+}  // namespace fc::resting

@@ -1,0 +1,148 @@
+// The clear version of chapter 5's step, beside the fast one: the laws that both must keep, and where bodies are.
+#include "ch05_resting_contact/clear.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <iostream>
+#include <random>
+
+#include "ch02_hull_hierarchy/model_distance.hpp"
+#include "ch05_resting_contact/resting.hpp"
+#include "support/worlds.hpp"
+
+namespace {
+
+using namespace fc_test;
+using fc::Vec3;
+using fc::resting::ClearResting;
+using fc::resting::Resting;
+
+// What the laws say of a frame, at its worst.
+struct Laws {
+  double newton = 0;   // of each body, as a share of the momenta that took part
+  double rise = 0;     // of energy, beyond what corrections lift and kinematic bodies do, as a share of what there was
+  double rise_joule = 0;
+  double told = 0;     // J, of corrections
+  double overlap = 0;  // m, at a frame's end
+  double across = 0;   // of the margin: the widest gap over which an impulse acts
+  double lost = 0;     // s
+  double ms = 0;       // of the whole run
+  int plans = 0, halved = 0;
+};
+
+// One of the two versions at work.
+template <class Planner>
+struct Run {
+  fc::world::World world;
+  double dt;
+  Planner planner;
+  Laws worst;
+
+  explicit Run(const fc::Scene& scene)
+      : world(fc::world::build_world(scene)), dt(scene.step->dt), planner(scene, world, dt) {}
+
+  double energy(double* size = nullptr) const {
+    double sum = 0;
+    for (const auto& b : world.bodies) {
+      if (b.state.is_static()) continue;
+      const double kinetic = b.state.kinetic_energy();
+      const double potential =
+          world.effects.gravity ? -b.state.mass * world.effects.gravity->dot(b.state.position) : 0;
+      sum += kinetic + potential;
+      if (size) *size += kinetic + std::abs(potential);
+    }
+    return sum;
+  }
+
+  double overlap() const {  // m, the deepest; 0 if there is none
+    double depth = 0;
+    for (int a = 0; a < static_cast<int>(world.bodies.size()); ++a)
+      for (int b = a + 1; b < static_cast<int>(world.bodies.size()); ++b) {
+        if (!world.yields(a) && !world.yields(b)) continue;
+        const fc::ca::PairPose pose(world.bodies[a].state.pose(), world.bodies[b].state.pose());
+        const auto gap = fc::hulls::model_distance(world.model_of(a), world.model_of(b), pose, 1e-9, 1e-6);
+        depth = std::max(depth, -gap.lower);
+      }
+    return depth;
+  }
+
+  void frame() {
+    double size = 0;
+    const double before = energy(&size);
+    std::vector<Vec3> momentum, impulse(world.bodies.size(), Vec3::Zero());
+    std::vector<double> pushed(world.bodies.size(), 0.0);
+    for (const auto& b : world.bodies) momentum.push_back(b.state.momentum());
+    double work = 0;  // J, of kinematic bodies, which go straight on
+    const auto report = planner.step(world, {[&](const fc::world::ImpactRecord& r) {
+      const Vec3 j = r.impulse.impulse * r.contact.normal;
+      for (const bool of_b : {false, true}) {
+        const auto body = static_cast<std::size_t>(of_b ? r.contact.body_b : r.contact.body_a);
+        const Vec3 own = of_b ? j : Vec3(-j);
+        impulse[body] += own;
+        pushed[body] += j.norm();
+        if (world.bodies[body].state.is_static()) work += own.dot(world.bodies[body].state.velocity);
+      }
+      worst.across = std::max(worst.across, r.contact.gap / planner.envelope());
+    }});
+    for (std::size_t i = 0; i < world.bodies.size(); ++i) {
+      const fc::RigidBody& s = world.bodies[i].state;
+      if (s.is_static()) continue;
+      const Vec3 weight =
+          world.effects.gravity ? Vec3(s.mass * dt * *world.effects.gravity) : Vec3(Vec3::Zero());
+      const double all = momentum[i].norm() + weight.norm() + pushed[i];
+      if (all > 0)
+        worst.newton = std::max(worst.newton, (s.momentum() - momentum[i] - weight - impulse[i]).norm() / all);
+    }
+    const double rise = energy() - before - work - report.correction_energy;
+    if (size > 0) worst.rise = std::max(worst.rise, rise / size);
+    worst.rise_joule = std::max(worst.rise_joule, rise);
+    worst.told += report.correction_energy;
+    worst.overlap = std::max(worst.overlap, overlap());
+    worst.lost += report.step.lost_time;
+    worst.ms += 1e-6 * static_cast<double>(report.step.step_ns);
+    worst.plans += report.plans;
+    if constexpr (std::is_same_v<Planner, ClearResting>) worst.halved += report.halved;
+  }
+};
+
+struct Both {
+  Run<ClearResting> clear;
+  Run<Resting> fast;
+  double apart = 0, turned = 0;  // m, rad: the worst of any body at any frame's end
+
+  explicit Both(const fc::Scene& scene) : clear(scene), fast(scene) {}
+  void run(int frames) {
+    for (int f = 0; f < frames; ++f) {
+      clear.frame();
+      fast.frame();
+      for (std::size_t i = 0; i < clear.world.bodies.size(); ++i) {
+        const fc::RigidBody &c = clear.world.bodies[i].state, &q = fast.world.bodies[i].state;
+        apart = std::max(apart, (c.position - q.position).norm());
+        turned = std::max(turned, c.orientation.angularDistance(q.orientation));
+      }
+    }
+  }
+};
+
+std::string text(const Laws& w) {
+  return fmt::format(
+      "newton {:.1e} rise {:.1e} ({:.1e} J) told {:.1e} J overlap {:.1e} across {:.4f} lost {:.1e} plans {} halved {} {:.0f} ms",
+      w.newton, w.rise, w.rise_joule, w.told, w.overlap, w.across, w.lost, w.plans, w.halved, w.ms);
+}
+
+TEST(Clear, Scratch) {
+  const char* name = std::getenv("FC_SCENE");
+  if (!name) GTEST_SKIP();
+  const fc::Scene scene = fc::read_scene({name, {}, {}, 5});
+  Both both(scene);
+  const int every = 10;
+  for (int f = 0; f < scene.step->frames; f += every) {
+    both.run(every);
+    std::cout << fmt::format("{:4d} apart {:.2e} m {:.2e} rad\n  clear {}\n  fast  {}\n", f + every, both.apart, both.turned,
+                             text(both.clear.worst), text(both.fast.worst)) << std::flush;
+  }
+}
+
+}  // namespace
