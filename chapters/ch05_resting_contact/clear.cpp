@@ -461,7 +461,7 @@ void ClearResting::follow(World& world, const ClearDraft& draft) {
   plan.records = records_of(draft.members, draft.now, world::ContactKind::rest, draft.starts, draft.z,
                             velocities(draft.mean, draft.starts), velocities(draft.fast, draft.starts));
   remember(draft);
-  plans_.push_back(plan);
+  if (!plan.bodies.empty()) plans_.push_back(plan);  // else all of them fly
   ++report_.plans;
 }
 // ANCHOR_END: clear
