@@ -132,6 +132,80 @@ std::string text(const Laws& w) {
       w.newton, w.rise, w.rise_joule, w.told, w.overlap, w.across, w.lost, w.plans, w.halved, w.ms);
 }
 
+struct Random {
+  std::mt19937_64 engine;
+  double operator()(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(engine);
+  }
+  double log(double low, double high) { return std::exp((*this)(std::log(low), std::log(high))); }
+  int below(int n) { return std::uniform_int_distribution<int>(0, n - 1)(engine); }
+  bool chance(double share) { return (*this)(0, 1) < share; }
+  std::string vector(int n, double size) {
+    std::string text = "[";
+    for (int i = 0; i < n; ++i) text += (i ? ", " : "") + fmt::format("{}", (*this)(-size, size));
+    return text + "]";
+  }
+};
+
+// 2 to 9 convex bodies that fall on a floor or into a pit, as in random_scenes_test.cpp.
+std::string random_scene(unsigned seed) {
+  Random random{std::mt19937_64(seed)};
+  const int count = 2 + random.below(8);
+  const bool pit = random.chance(0.3), mixed = random.chance(0.3);
+  const double dt = random.log(1.0 / 240, 0.03), restitution = random.chance(0.3) ? 0 : random(0, 1);
+  const double heaviest = random.chance(0.5) ? 1 : random.log(1, 1e3);
+  std::string shapes = "  floor: {box: {size: [40, 40, 1]}}\n  wall: {box: {size: [1, 8, 8]}}\n", bodies;
+  for (int i = 0; i < count; ++i) {
+    const std::array<std::string, 8> kinds{
+        "box: {size: [0.5, 0.4, 0.3]}",
+        "box: {size: [0.8, 0.5, 0.05]}",
+        "sphere: {radius: 0.3}",
+        "capsule: {radius: 0.12, length: 0.5}",
+        "hull: {points: [[0.4, 0, 0], [-0.4, 0, 0], [0, 0.3, 0], [0, -0.3, 0], [0, 0, 0.3], [0.1, 0, -0.3]]}",
+        "hull: {points: [[0.3, 0.3, 0.3], [-0.3, -0.3, 0.3], [-0.3, 0.3, -0.3], [0.3, -0.3, -0.3]]}",
+        "cylinder: {radius: 0.25, length: 0.4}",
+        "cone: {radius: 0.25, length: 0.5}"};
+    shapes += fmt::format("  s{}: {{{}, mass: {}{}}}\n", i, kinds[static_cast<std::size_t>(random.below(8))],
+                          random.log(1, heaviest), mixed ? fmt::format(", restitution: {}", random(0, 1)) : "");
+    bodies += fmt::format(
+        "  - {{shape: s{}, position: [{}, {}, {}], orientation: {}, velocity: [{}, {}, {}], spin: {}}}\n", i,
+        1.1 * (i % 3 - 1), 1.1 * (i / 3 - 1), 0.6 + 0.2 * random(0, 1), random.vector(4, 1), random(-0.5, 0.5),
+        random(-0.5, 0.5), random(-2, 0.5), random.vector(3, 3));
+  }
+  bodies += "  - {shape: floor, static: true, position: [0, 0, -0.5]}\n";
+  if (pit)
+    for (const double x : {-2.3, 2.3})
+      bodies += fmt::format("  - {{shape: wall, static: true, position: [{}, 0, 3.9]}}\n", x);
+  return fmt::format(
+      "step: {{dt: {}, duration: 1.5}}\nrestitution: {}\nenvelope: {}\nccd: {{tolerance: 1.0e-7}}\n"
+      "gravity: [0, 0, -9.81]\nshapes:\n{}bodies:\n{}",
+      dt, restitution, random.log(1e-4, 5e-3), shapes, bodies);
+}
+
+fc::Scene read_rest_scene(const std::string& text) {
+  const auto file = scratch("scenes") / "scene.yaml";
+  std::ofstream(file) << text;
+  return fc::read_scene({file, {}, {}, 5});
+}
+
+TEST(Clear, RandomScratch) {
+  const char* count = std::getenv("FC_SCENES");
+  if (!count) GTEST_SKIP();
+  for (int seed = 1; seed <= std::atoi(count); ++seed) {
+    const fc::Scene scene = read_rest_scene(random_scene(static_cast<unsigned>(seed)));
+    Both both(scene);
+    std::string error;
+    try {
+      both.run(scene.step->frames);
+    } catch (const std::exception& e) {
+      error = e.what();
+    }
+    std::cout << fmt::format("seed {} bodies {} dt {:.4f} h {:.1e} apart {:.2e} m {:.2e} rad {}\n  clear {}\n  fast  {}\n", seed,
+                             scene.bodies.size(), scene.step->dt, both.clear.planner.envelope(), both.apart, both.turned, error,
+                             text(both.clear.worst), text(both.fast.worst)) << std::flush;
+  }
+}
+
 TEST(Clear, Scratch) {
   const char* name = std::getenv("FC_SCENE");
   if (!name) GTEST_SKIP();
