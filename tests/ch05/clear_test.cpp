@@ -191,7 +191,7 @@ fc::Scene read_rest_scene(const std::string& text) {
 TEST(Clear, RandomScratch) {
   const char* count = std::getenv("FC_SCENES");
   if (!count) GTEST_SKIP();
-  for (int seed = 1; seed <= std::atoi(count); ++seed) {
+  for (int seed = std::getenv("FC_FIRST") ? std::atoi(std::getenv("FC_FIRST")) : 1; seed <= std::atoi(count); ++seed) {
     const fc::Scene scene = read_rest_scene(random_scene(static_cast<unsigned>(seed)));
     Both both(scene);
     std::string error;
