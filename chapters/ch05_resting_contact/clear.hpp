@@ -43,15 +43,12 @@ class ClearResting : public world::Planner {
     std::vector<world::ImpactRecord> records = {};  // of its impulses, over all of its time
     double lift = 0;                                // J, what its corrections do against gravity
   };
-  std::vector<int> go_on(world::World& world, std::vector<int> bodies, double now,
-                         const world::Listeners& listeners);
-  void end_plan_of(world::World& world, int body, double now, std::vector<int>& bodies,
-                   const world::Listeners& listeners);
-  void stop_what_closes(const world::World& world, Island& island, double now,
-                        const world::Listeners& listeners);
+  std::vector<int> go_on(world::World& world, std::vector<int> bodies, double now);
+  void end_plan_of(world::World& world, int body, double now, std::vector<int>& bodies);
+  void stop_what_closes(const world::World& world, Island& island, double now);
   void plan(world::World& world, const Island& island, double now);
   void follow(world::World& world, const ClearDraft& draft);
-  void tell(const std::vector<world::ImpactRecord>& records, double share, const world::Listeners& listeners);
+  void tell(const std::vector<world::ImpactRecord>& records, double share);
 
   Contacts contacts_;
   IslandFinder islands_;
@@ -59,6 +56,7 @@ class ClearResting : public world::Planner {
   double frame_, dt_;          // s, of a frame, and of the part of it at hand
   std::vector<Plan> plans_;    // of this frame
   ClearReport report_;
+  const world::Listeners* listeners_ = nullptr;
 };
 
 }  // namespace fc::resting
