@@ -387,7 +387,6 @@ void ClearResting::stop_what_closes(const World& world, Island& island, double n
 
 // Pushes (u becomes w) and corrects (w becomes y), until the gaps at the end are what the rows say: a chord method.
 bool ClearDraft::close_ends() {
-  for (Row& row : rows) row.taken = std::numeric_limits<double>::infinity();
   for (int round = 0; round < kMostRounds; ++round) {
     fast = mean;
     if (!push(fast, starts, room(false), z)) return false;
@@ -395,7 +394,11 @@ bool ClearDraft::close_ends() {
     push(path, starts, room(true), c);  // where there is no room for corrections, gaps stay as they are
     follow_paths();
     double worst = 0;
-    for (int i = 0; i < std::ssize(rows); ++i) worst = std::max(worst, measure(i));
+    for (int i = 0; i < std::ssize(rows); ++i) {
+      worst = std::max(worst, measure(i));
+      if (z[i] > 0)
+        worst = std::max(worst, length * (lcp::contact_velocity(fast, starts[i]) - rows[i].taken));
+    }
     if (worst <= kClosed * contacts.margin()) return true;
   }
   return false;
