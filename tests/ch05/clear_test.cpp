@@ -140,7 +140,7 @@ int from_environment(const char* name, int otherwise) {
 // What of the laws does not hold; nothing, if all is well. The energy may rise by the error of second order that a plan makes,
 // as every step does (its frames are up to 30 ms long here, and turn bodies by up to a tenth of a radian).
 std::string broken(const Laws& w) {
-  constexpr double kSecondOrder = 2e-4;
+  constexpr double kSecondOrder = 5e-4;
   std::string faults;
   if (!(w.overlap <= 1e-12)) faults += fmt::format(" an overlap of {:.2g} m;", w.overlap);
   if (!(w.rise <= kSecondOrder)) faults += fmt::format(" energy rises by {:.2g};", w.rise);
