@@ -35,7 +35,7 @@ bool give_back(std::vector<RigidBody>& bodies, const std::vector<lcp::Contact>& 
     lcp::apply_impulse(expanded, contacts[i], back[i]);
   }
   if (!any) return false;
-// ANCHOR: cap
+  // ANCHOR: cap
   double gave = 0, takes = 0;  // z'Az and r'Ar, by what the impulses do to the velocities
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const double compressed = lcp::contact_velocity(bodies, contacts[i]);
@@ -48,7 +48,7 @@ bool give_back(std::vector<RigidBody>& bodies, const std::vector<lcp::Contact>& 
     lcp::apply_impulse(bodies, contacts[i], cap * back[i]);
     total[i] += cap * back[i];
   }
-// ANCHOR_END: cap
+  // ANCHOR_END: cap
   return true;
 }
 

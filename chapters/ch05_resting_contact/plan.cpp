@@ -25,11 +25,10 @@ constexpr double kRoom = 0.55;
 // looked at.
 constexpr std::int64_t kMostPairs = 50'000;
 
-constexpr double kNoLimit = std::numeric_limits<double>::infinity();
-
-constexpr int kMostProofs = 4;    // rounds in which unproved pairs become rows
-constexpr int kMostRounds = 8;    // in which the paths' ends are looked at again
-constexpr double kClosed = 1e-6;  // of the margin: how exactly contacts close at the plan's end
+constexpr int kMostProofs = 4;          // rounds in which unproved pairs become rows
+constexpr int kMostRounds = 8;          // in which the paths' ends are looked at again
+constexpr double kNearlyClosed = 1e-2;  // else a shorter plan is made
+constexpr double kClosed = 1e-6;        // of the margin: how exactly contacts close at the plan's end
 
 }  // namespace
 
@@ -70,7 +69,7 @@ PlanMaker::Result PlanMaker::make(const world::World& world, const Island& islan
     return row.impulse > 0 && row.arrives && row.end_gap > contacts_.margin();
   };
   for (int round = 0; round < kMostProofs; ++round) {
-    if (!close_ends()) return Result::unsolved;
+    if (const Result ends = close_ends(); ends != Result::proved) return ends;
     courses_.find(world, false);
     for (std::size_t i = fast_.size(); i < courses_.members.size(); ++i) {
       fast_.push_back(courses_.members[i].state);
@@ -182,13 +181,13 @@ double PlanMaker::end_speed(const Row& row, const std::vector<RigidBody>& bodies
 
 // Solves until the gaps at the end are what the rows say of them.
 // ANCHOR: close_ends
-bool PlanMaker::close_ends() {
-  for (Row& row : rows_) row.most_push = kNoLimit;
+PlanMaker::Result PlanMaker::close_ends() {
+  double worst = 0;
   for (int round = 0; round < kMostRounds; ++round) {
-    if (!solve()) return false;
+    if (!solve()) return Result::unsolved;
     for (std::size_t i = 0; i < courses_.members.size(); ++i)
       courses_.go(static_cast<int>(i), {path_[i].velocity, path_[i].spin});
-    double worst = 0;
+    worst = 0;
     for (Row& row : rows_) {
       const Track &a = courses_.tracks[at(row.contact.body_a)], &b = courses_.tracks[at(row.contact.body_b)];
       row.end_gap = row.point.gap_at(a.end, b.end);
@@ -196,12 +195,14 @@ bool PlanMaker::close_ends() {
       const double bend =
           row.end_gap - row.gap - courses_.length() * lcp::contact_velocity(path_, row.contact);
       worst = std::max(worst, std::abs(bend - row.bend));
-      row.most_push = std::max(0.0, -end_speed(row, fast_));
       row.bend = bend;
+      row.most_push = std::max(0.0, -end_speed(row, fast_));
+      const double parts = row.impulse > 0 ? lcp::contact_velocity(fast_, row.contact) - row.most_push : 0;
+      worst = std::max(worst, courses_.length() * parts);
     }
     if (worst <= kClosed * contacts_.margin()) break;
   }
-  return true;
+  return worst <= kNearlyClosed * contacts_.margin() ? Result::proved : Result::unproved;
 }
 // ANCHOR_END: close_ends
 

@@ -92,7 +92,7 @@ std::vector<int> Resting::begin(world::World& world, double dt, world::StepRepor
     for (const int body : bodies) crowd_of_[at(body)] = static_cast<int>(crowds_.size());
     crowds_.push_back({std::move(bodies)});
   }
-  Instant instant{world, 0, report, listeners, {}, {}};
+  Instant instant{world, 0, report, listeners};
   for (int body = 0; body < static_cast<int>(world.bodies.size()); ++body)
     if (world.yields(body) && !world.bodies[at(body)].asleep) instant.bodies.push_back(body);
   return go_on(std::move(instant));
@@ -107,7 +107,7 @@ double Resting::next_end() const {
 
 std::vector<int> Resting::end_plans(world::World& world, double now, world::StepReport& report,
                                     const world::Listeners& listeners) {
-  Instant instant{world, now, report, listeners, {}, {}};
+  Instant instant{world, now, report, listeners};
   for (const Running& plan : plans_)
     if (plan.runs && plan.end <= now)
       instant.bodies.insert(instant.bodies.end(), plan.what.bodies.begin(), plan.what.bodies.end());
@@ -116,7 +116,7 @@ std::vector<int> Resting::end_plans(world::World& world, double now, world::Step
 
 std::vector<int> Resting::meet(world::World& world, int a, int b, double now, world::StepReport& report,
                                const world::Listeners& listeners) {
-  Instant instant{world, now, report, listeners, {}, {}};
+  Instant instant{world, now, report, listeners};
   for (const int body : {a, b}) {
     ++meetings_[at(body)];
     if (world.yields(body)) instant.bodies.push_back(body);
@@ -140,6 +140,7 @@ std::vector<int> Resting::go_on(Instant instant) {
     const int crowd = crowd_of_[at(body)];
     if (crowd >= 0 && !crowds_[at(crowd)].done) go_on(instant, crowds_[at(crowd)]);
   }
+  if (instant.now > 0) report_.correction_energy += std::max(0.0, instant.gained);
   if (instant.now >= dt_) instant.changed.clear();  // the frame is over
   return std::move(instant.changed);
 }
@@ -216,7 +217,7 @@ void Resting::set_courses(Instant& instant, std::span<const Member> members, dou
     energy_[at(member.number)] = energy_of(instant.world, member.state);
     gained += energy_[at(member.number)];
   }
-  if (instant.now > 0) report_.correction_energy += std::max(0.0, gained);
+  instant.gained += gained;
 }
 
 // An island that a crowd has got into belongs to it; else it becomes one if it `must`, or if it has events without end.

@@ -31,7 +31,7 @@ struct RestReport {
 struct RestOptions {
   double most_work = 4e5;   // see event_work(): more makes a crowd
   int most_meetings = 256;  // and so does a body that meets others more often in one frame
-  int sweeps = 16;           // of a crowd's rows
+  int sweeps = 16;          // of a crowd's rows
   IslandOptions solver = {};
 };
 
@@ -68,8 +68,9 @@ class Resting : public world::Planner {
     double now;
     world::StepReport& report;
     const world::Listeners& listeners;
-    std::vector<int> bodies;   // whose plans end; the list grows
-    std::vector<int> changed;  // that have got another course
+    std::vector<int> bodies = {};   // whose plans end; the list grows
+    std::vector<int> changed = {};  // that have got another course
+    double gained = 0;  // J, by all of them since they got their last, beyond what kinematic bodies did
   };
   static std::size_t at(int index) { return static_cast<std::size_t>(index); }
   std::vector<int> go_on(Instant instant);
