@@ -75,8 +75,8 @@ class PlanMaker {
     double keep = 0, want = 0;  // m, at the end: for velocities, and for paths
     double impulse = 0, correction = 0;
     double end_gap = 0;
-    double most_push =
-        0;  // m/s: velocities are made to part by no more, since no more is taken back at the end
+    double most_push = std::numeric_limits<double>::
+        infinity();  // m/s: velocities are made to part by no more, since no more is taken back at the end
     bool arrives = false;  // not in contact now: what the row does, it does at the plan's end
   };
   static std::size_t at(int index) { return static_cast<std::size_t>(index); }
@@ -84,7 +84,7 @@ class PlanMaker {
   bool comes_in_fast(const IslandPair& pair) const;
   bool solve();
   bool solve(std::vector<RigidBody>& bodies);
-  bool close_ends();
+  Result close_ends();
   void remember() const;
   bool add_rows_of(const world::World& world, int candidate);
   double end_speed(const Row& row, const std::vector<RigidBody>& bodies) const;

@@ -16,6 +16,10 @@ constexpr int kMostBounces = 64;
 // A plan is halved where its paths are not clear, down to this part of a frame.
 constexpr double kShortest = 1.0 / 4096;
 
+// So are plans of crowds with few rows, where paths would have to be shortened, down to this part.
+constexpr int kManyRows = 600;
+constexpr double kShortestOfCrowd = 1.0 / 512;
+
 // A plan that would leave less than this part of what is left of the frame takes it all.
 constexpr double kNearlyAll = 0.75;
 
@@ -158,7 +162,7 @@ void Resting::go_on(Instant& instant, Island& island) {
   if (!goes) join_crowd(island, true);
 }
 
-// A crowd has no impacts of its own, only plans: two in a frame.
+// A crowd has no impacts of its own, only plans.
 void Resting::go_on(Instant& instant, Crowd& crowd) {
   crowd.done = true;
   std::vector<Member> members;
@@ -166,31 +170,7 @@ void Resting::go_on(Instant& instant, Crowd& crowd) {
   const double work = instant.report.kinematic_work, before = stand(instant, members);
   wake(instant.world, members, instant.report);
   set_courses(instant, members, before, work);
-  if (instant.now >= dt_) return;
-  const double end = instant.now < (0.5 - kShortest) * dt_ ? 0.5 * dt_ : dt_;
-  CrowdOptions options;
-  options.rest_speed = envelope() / dt_;
-  options.sweeps = options_.sweeps;
-  options.told = static_cast<bool>(instant.listeners.impact);
-  const auto make = [&] {
-    return crowd_planner_.make(instant.world, members, instant.now, end - instant.now, options);
-  };
-  Planned planned = make();
-  if (!crowd_planner_.blocked().empty()) {
-    for (const int body : crowd_planner_.blocked())
-      stop(instant.world, body, instant.now, dt_, instant.report);
-    planned = make();
-  }
-  report_.checked += crowd_planner_.checked();
-  report_.sweeps += crowd_planner_.sweeps();
-  report_.shortened += crowd_planner_.shortened();
-  report_.lost_impulse += crowd_planner_.lost_impulse();
-  report_.largest_island = std::max(report_.largest_island, crowd_planner_.rows());
-  report_.smallest_gap = std::min(report_.smallest_gap, crowd_planner_.smallest_gap());
-  instant.report.lcp_residual = std::max(instant.report.lcp_residual, crowd_planner_.residual());
-  instant.report.contacts += crowd_planner_.rows();
-  ++instant.report.solves;
-  start(instant, std::move(planned), end);
+  if (instant.now < dt_) plan(instant, crowd, members);
 }
 // ANCHOR_END: instant
 
@@ -349,6 +329,41 @@ bool Resting::plan(Instant& instant, Island& island) {
     if (member.dynamic) try_length_[at(member.number)] = 2 * length;
   start(instant, maker_.take(), length == left ? dt_ : instant.now + length);
   return true;
+}
+
+// Two plans in a frame; and more, if it is so small that shorter plans cost less than paths that are shortened.
+void Resting::plan(Instant& instant, Crowd& crowd, std::span<const Member> members) {
+  const double half = instant.now < (0.5 - kShortest) * dt_ ? 0.5 * dt_ : dt_, left = half - instant.now;
+  CrowdOptions options;
+  options.rest_speed = envelope() / dt_;
+  options.sweeps = options_.sweeps;
+  options.told = static_cast<bool>(instant.listeners.impact);
+  Planned planned;
+  double length = crowd.length > kNearlyAll * left ? left : crowd.length;
+  for (bool stopped = false;;) {
+    planned = crowd_planner_.make(instant.world, members, instant.now, length, options);
+    report_.checked += crowd_planner_.checked();
+    report_.sweeps += crowd_planner_.sweeps();
+    const bool goes = crowd_planner_.shortened() == 0 && crowd_planner_.blocked().empty();
+    if (goes || (crowd_planner_.blocked().empty() && crowd_planner_.rows() > kManyRows)) break;
+    if (crowd_planner_.rows() <= kManyRows && length > kShortestOfCrowd * dt_) {
+      length *= 0.5;
+      continue;
+    }
+    if (stopped || crowd_planner_.blocked().empty()) break;
+    for (const int body : crowd_planner_.blocked())
+      stop(instant.world, body, instant.now, dt_, instant.report);
+    stopped = true;
+  }
+  crowd.length = 2 * length;
+  report_.shortened += crowd_planner_.shortened();
+  report_.lost_impulse += crowd_planner_.lost_impulse();
+  report_.largest_island = std::max(report_.largest_island, crowd_planner_.rows());
+  report_.smallest_gap = std::min(report_.smallest_gap, crowd_planner_.smallest_gap());
+  instant.report.lcp_residual = std::max(instant.report.lcp_residual, crowd_planner_.residual());
+  instant.report.contacts += crowd_planner_.rows();
+  ++instant.report.solves;
+  start(instant, std::move(planned), length == left ? half : instant.now + length);
 }
 
 void Resting::start(Instant& instant, Planned&& planned, double end) {

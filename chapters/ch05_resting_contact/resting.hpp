@@ -60,7 +60,8 @@ class Resting : public world::Planner {
   };
   struct Crowd {
     std::vector<int> bodies;
-    bool done = false;  // in this instant
+    double length = std::numeric_limits<double>::infinity();  // s, of its next plan at most
+    bool done = false;                                        // in this instant
   };
   // An instant, and what is to be told of it.
   struct Instant {
@@ -82,6 +83,7 @@ class Resting : public world::Planner {
   void end_plan(Instant& instant, int number);
   bool resolve(Instant& instant, Island& island);
   bool plan(Instant& instant, Island& island);
+  void plan(Instant& instant, Crowd& crowd, std::span<const Member> members);
   void start(Instant& instant, Planned&& planned, double end);
 
   Contacts contacts_;

@@ -154,12 +154,15 @@ TEST(Path, ProvesOnlyWhatIsClear) {
       ++reached;
     }
     // Planes alone prove less; but what they do prove, until that time, is clear.
-    const auto planes = fc::resting::check_path(world, contacts, pair, track_a, track_b, dt, {.need = need, .by_planes = true});
+    const auto planes = fc::resting::check_path(world, contacts, pair, track_a, track_b, dt,
+                                                {.need = need, .by_planes = true});
     by_planes += planes.clear;
     EXPECT_TRUE(verdict.clear || !planes.clear) << "trial " << trial;
     for (int k = 0; k <= 200; ++k) {
       const double t = dt * k / 200;
-      if (t <= planes.time) { EXPECT_GE(gap_at(t), need + planes.slack - 1e-7) << "trial " << trial; }
+      if (t <= planes.time) {
+        EXPECT_GE(gap_at(t), need + planes.slack - 1e-7) << "trial " << trial;
+      }
     }
   }
   EXPECT_GT(by_planes, 0.9 * clear);

@@ -183,7 +183,8 @@ TEST(Sleep, WakesWhoeverIsTouched) {
         1 / 60.0, {.most_work = most_work});
     s.run(0.8);
     EXPECT_EQ(s.last.step.lcp_rows, 0) << most_work;
-    for (int body = 1; body <= 6; ++body) EXPECT_TRUE(s.world.bodies[body].asleep) << most_work << ": " << body;
+    for (int body = 1; body <= 6; ++body)
+      EXPECT_TRUE(s.world.bodies[body].asleep) << most_work << ": " << body;
     int wakes = 0;
     double force = 0;  // N, on the floor, in the last frame in which anybody was awake
     for (int frame = 0; frame < 90; ++frame) {
@@ -198,7 +199,8 @@ TEST(Sleep, WakesWhoeverIsTouched) {
     EXPECT_EQ(wakes, 3) << most_work;
     // A pile is solved to a residual of a thousandth.
     EXPECT_NEAR(force, 80, most_work == 0 ? 0.08 : 1e-3) << most_work << ": N, three boxes and the ball";
-    for (int body = 1; body <= 7; ++body) EXPECT_TRUE(s.world.bodies[body].asleep) << most_work << ": " << body;
+    for (int body = 1; body <= 7; ++body)
+      EXPECT_TRUE(s.world.bodies[body].asleep) << most_work << ": " << body;
     EXPECT_EQ(s.lost, 0) << most_work;
     EXPECT_GT(s.smallest_gap, 0) << most_work;
   }
