@@ -197,8 +197,10 @@ double Contacts::search_convex(const world::World& world, PairContacts& pair, co
     if (result.lower > 0 && result.lower <= reach) {
       find_patch(side_a, side_b, pose, result, slack(result.lower), kFar * margin_ + (reach - margin_),
                  patch);
-      for (int i = 0; i < patch.count && !found; ++i)
-        found = patch.points[static_cast<std::size_t>(i)].gap <= patch.gap + slack(patch.gap);
+      for (int i = 0; i < patch.count && !found; ++i) {
+        const PatchPoint& point = patch.points[static_cast<std::size_t>(i)];
+        found = point.key != PatchPoint::kBroughtTogether && point.gap <= patch.gap + slack(patch.gap);
+      }
     }
   }
   if (!found) result = nearest(world, pair, pose);

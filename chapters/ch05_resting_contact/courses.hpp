@@ -35,16 +35,16 @@ class Courses {
   // The member goes with these velocities.
   void go(int member, const Twist& path);
   // Proves the paths of all pairs that have changed so much since they were proved that this says nothing any more; whether
-  // all are clear. `floor(pair)`: m; gaps stay above that, or half of what they were.
-  template <class Floor>
-  bool prove(const world::World& world, Floor&& floor, PathOptions options) {
+  // all are clear. options_of(pair): gaps stay above `need`, or half of what they were.
+  template <class OptionsOf>
+  bool prove(const world::World& world, OptionsOf&& options_of) {
     bool all = true;
     for (Candidate& pair : candidates) {
       const double moved = moved_[at(pair.a)] + moved_[at(pair.b)];
       const double since = moved - pair.moved;
       if (!pair.checked || (pair.clear ? since > pair.slack : since > 0)) {
-        options.need = floor(pair);
-        const PathVerdict verdict = check(world, pair, tracks[at(pair.a)], tracks[at(pair.b)], options);
+        const PathVerdict verdict =
+            check(world, pair, tracks[at(pair.a)], tracks[at(pair.b)], options_of(pair));
         pair.checked = true;
         pair.clear = verdict.clear;
         pair.time = verdict.time;

@@ -187,8 +187,8 @@ void CrowdPlanner::find_paths(const world::World& world) {
     for (std::size_t i = 0; i < paths_.size(); ++i) courses_.go(static_cast<int>(i), paths_[i]);
     courses_.find(world, true);
     add_bodies();
-    const bool clear = courses_.prove(world, [&](const Candidate&) { return floor; },
-                                      {.most_pairs = kMostPairs, .by_planes = true, .whole = true});
+    const PathOptions options{.need = floor, .most_pairs = kMostPairs, .by_planes = true, .whole = true};
+    const bool clear = courses_.prove(world, [&](const Candidate&) { return options; });
     if (clear || round == options_.rounds) return;
     for (int i = 0; i < static_cast<int>(courses_.candidates.size()); ++i)
       if (!courses_.candidates[at(i)].clear) look_again(world, i);
@@ -313,11 +313,10 @@ void CrowdPlanner::remember() const {
   }
 }
 
+// All impulses act at the end.
 Planned CrowdPlanner::take(const world::World& world) {
-  const double length = courses_.length();
   const std::vector<RigidBody> swept = ends();
-  std::vector<RigidBody> early = swept,
-                         bounced = swept;  // without what arrives at the end; with all that happens there
+  std::vector<RigidBody> bounced = swept;
   give_back(world, bounced);
   remember();
   Planned result;
@@ -328,14 +327,17 @@ Planned CrowdPlanner::take(const world::World& world) {
     if (!(z > 0)) continue;
     ++result.pushing;
     const bool driven = world.carries(pair.contacts->a) || world.carries(pair.contacts->b);
-    if (!row.arrives && !driven && !options_.told) continue;
-    lcp::Contact contact = contact_of(world, row);
-    if (row.arrives) lcp::apply_impulse(early, contact, -z);
-    if (driven) result.kinematic_work += lcp::kinematic_work(swept, contact, z + back_[at(i)]);
+    if (!driven && !options_.told) continue;
+    PlannedRow told;
+    told.contact = contact_of(world, row);
+    if (driven) result.kinematic_work += lcp::kinematic_work(swept, told.contact, z + back_[at(i)]);
     if (!options_.told) continue;
-    PlannedRow told{
-        contact,           z,          back_[at(i)], row.before, lcp::contact_velocity(bounced, contact),
-        point_of(row).key, row.arrives};
+    told.impulse = z;
+    told.back = back_[at(i)];
+    told.before = row.before;
+    told.after = lcp::contact_velocity(bounced, told.contact);
+    told.key = point_of(row).key;
+    told.arrives = row.arrives;
     if (row.arrives) {
       const Track &a = courses_.tracks[at(pair.a)], &b = courses_.tracks[at(pair.b)];
       told.contact.gap = point_of(row).gap_at(a.end, b.end);
@@ -349,13 +351,13 @@ Planned CrowdPlanner::take(const world::World& world) {
     const Member& member = courses_.members[i];
     if (!member.dynamic) continue;
     const Track& track = courses_.tracks[i];
-    const Twist arrival{bounced[i].velocity - early[i].velocity, bounced[i].spin - early[i].spin};
-    // Shortened, it also keeps only a share of what it has at the end.
-    const double share = shares_[i];
-    const Twist end{share * bounced[i].velocity - arrival.linear, share * bounced[i].spin - arrival.angular};
+    const Twist free{courses_.drift[i].linear + courses_.last[i].linear,
+                     courses_.drift[i].angular + courses_.last[i].angular};
+    const double share = shares_[i];  // of what it has at the end, too
     result.bodies.push_back(member.number);
-    result.courses.push_back(course_of(member, {track.velocity, track.spin}, end, length));
-    result.arrivals.push_back(arrival);
+    result.courses.push_back(course_of(member, {track.velocity, track.spin}, free, courses_.length()));
+    result.arrivals.push_back(
+        {share * bounced[i].velocity - free.linear, share * bounced[i].spin - free.angular});
   }
   return result;
 }

@@ -27,6 +27,26 @@ bool any_driven(std::span<const RigidBody> bodies) {
 
 }  // namespace
 
+// What Dantzig's method cannot solve because of rounding (many rows that say nearly the same), sweeps can, nearly.
+void IslandSolver::sweep(std::span<const RigidBody> bodies, std::span<const lcp::Contact> contacts,
+                         std::span<const double> allowed, std::span<const double> z, lcp::LcpResult& result) {
+  constexpr int kSweeps = 1000;
+  constexpr double kAccepted = 1e-3;
+  sweeps_.clear();
+  for (const RigidBody& body : bodies) {
+    const Twist now{body.velocity, body.spin};
+    sweeps_.add_body(body, now, now);
+  }
+  for (std::size_t i = 0; i < contacts.size(); ++i) sweeps_.add(contacts[i], allowed[i], 0, z[i], 0);
+  sweeps_.run(1);
+  sweeps_.run_velocities(kSweeps);
+  result.residual = sweeps_.residual();
+  if (!(result.residual <= kAccepted)) return;
+  result.status = lcp::Status::solved;
+  result.z.resize(static_cast<Eigen::Index>(contacts.size()));
+  for (int i = 0; i < sweeps_.rows(); ++i) result.z[i] = sweeps_.impulse(i);
+}
+
 IslandResult IslandSolver::solve(std::span<RigidBody> bodies, std::span<const lcp::Contact> contacts,
                                  std::span<const double> allowed, std::span<double> z,
                                  const IslandOptions& options) {
@@ -45,6 +65,7 @@ IslandResult IslandSolver::solve(std::span<RigidBody> bodies, std::span<const lc
   } else {
     dantzig_.solve(rows, {.start = start}, result);
   }
+  if (result.status != lcp::Status::solved && !options.chosen) sweep(bodies, contacts, allowed, z, result);
   const int steps = options.chosen ? result.pivots : 0;
   if (result.status != lcp::Status::solved) return {false, result.residual, steps, result.status};
   const std::vector<RigidBody> before(bodies.begin(), bodies.end());

@@ -283,7 +283,7 @@ void find_patch(const PatchSide& a, const PatchSide& b, const ca::PairPose& pose
   const Vec3 far_b = pose.rotation_b * ca::support(core_b, -(to_b * patch.normal)).point + pose.offset_world;
   const Vec3 between = 0.5 * (far_a + far_b);
   add(between + patch.normal.dot(far_a - between) * patch.normal,
-      between + patch.normal.dot(far_b - between) * patch.normal, patch.gap, 4);
+      between + patch.normal.dot(far_b - between) * patch.normal, patch.gap, PatchPoint::kBroughtTogether);
 }
 
 }  // namespace fc::resting

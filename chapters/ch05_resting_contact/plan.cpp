@@ -22,8 +22,11 @@ constexpr double kStop = 0.25;
 constexpr double kRoom = 0.55;
 
 // A pair that turns in contact is proved sooner by a shorter plan than by ever smaller steps: so many pairs of nodes are
-// looked at.
-constexpr std::int64_t kMostPairs = 50'000;
+// looked at, of two convex bodies and of meshes.
+constexpr std::int64_t kMostPairs = 1000, kMostPairsOfMeshes = 50'000;
+
+// Of the bodies' kinetic energy, by which pushes may add to it until the plan's end.
+constexpr double kMostBorrowed = 0.005;
 
 constexpr int kMostProofs = 4;          // rounds in which unproved pairs become rows
 constexpr int kMostRounds = 8;          // in which the paths' ends are looked at again
@@ -62,20 +65,23 @@ PlanMaker::Result PlanMaker::make(const world::World& world, const Island& islan
     courses_.candidates[at(candidate)].in_contact = !pair.contacts->points.empty();
     for (const ContactPoint& point : pair.contacts->points) add_row(world, candidate, point, false);
   }
-  const auto floor = [&](const Candidate& pair) {
-    return (pair.in_contact ? kFloor : kStop) * contacts_.margin();
+  const auto options_of = [&](const Candidate& pair) {
+    if (!pair.in_contact) return PathOptions{.need = kStop * contacts_.margin()};
+    const std::int64_t most = Contacts::convex(world, *pair.contacts) ? kMostPairs : kMostPairsOfMeshes;
+    return PathOptions{.need = kFloor * contacts_.margin(), .most_pairs = most};
   };
   const auto acts_on_air = [&](const Row& row) {  // an impulse across more than the margin
     return row.impulse > 0 && row.arrives && row.end_gap > contacts_.margin();
   };
   for (int round = 0; round < kMostProofs; ++round) {
     if (const Result ends = close_ends(); ends != Result::proved) return ends;
+    if (gains()) return Result::unproved;
     courses_.find(world, false);
     for (std::size_t i = fast_.size(); i < courses_.members.size(); ++i) {
       fast_.push_back(courses_.members[i].state);
       path_.push_back(courses_.members[i].state);
     }
-    const bool clear = courses_.prove(world, floor, {.most_pairs = kMostPairs});
+    const bool clear = courses_.prove(world, options_of);
     if (std::any_of(rows_.begin(), rows_.end(), acts_on_air)) return Result::unproved;
     if (clear) return Result::proved;
     bool any = false;
@@ -131,21 +137,27 @@ bool PlanMaker::solve(std::vector<RigidBody>& bodies) {
   return result.solved;
 }
 
+// The members with their mean velocities of free flight.
+std::vector<RigidBody> PlanMaker::drifting() const {
+  std::vector<RigidBody> bodies;
+  for (std::size_t i = 0; i < courses_.members.size(); ++i) {
+    bodies.push_back(courses_.members[i].state);
+    bodies.back().velocity = courses_.drift[i].linear;
+    bodies.back().spin = courses_.drift[i].angular;
+  }
+  return bodies;
+}
+
 // Steps 1 and 2, with the rows' right-hand sides as they are.
 bool PlanMaker::solve() {
   const double length = courses_.length();
-  fast_.clear();
-  for (std::size_t i = 0; i < courses_.members.size(); ++i) {
-    fast_.push_back(courses_.members[i].state);
-    fast_.back().velocity = courses_.drift[i].linear;
-    fast_.back().spin = courses_.drift[i].angular;
-  }
+  fast_ = drifting();
   contact_list_.clear();
   allowed_.clear();
   impulses_.clear();
   for (const Row& row : rows_) {
     contact_list_.push_back(row.contact);
-    allowed_.push_back(std::max((row.gap + row.bend - row.keep) / length, -row.most_push));
+    allowed_.push_back(allowed(row));
     impulses_.push_back(row.impulse);
   }
   if (!solve(fast_)) return false;
@@ -206,6 +218,20 @@ PlanMaker::Result PlanMaker::close_ends() {
 }
 // ANCHOR_END: close_ends
 
+// Whether the pushes add more kinetic energy than a plan may borrow until its end takes it back. Bodies that turn a plane by an
+// angle of t on a path borrow t^2 / 4 of theirs.
+bool PlanMaker::gains() const {
+  double gain = 0, size = 0;
+  const std::vector<RigidBody> free = drifting();
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    if (!courses_.members[i].dynamic) continue;
+    const double before = free[i].kinetic_energy(), slow = contacts_.margin() / courses_.length();
+    gain += fast_[i].kinetic_energy() - before;
+    size += before + 0.5 * free[i].mass * slow * slow;
+  }
+  return gain > kMostBorrowed * size;
+}
+
 // The points that an unproved pair has at the end of its path become rows; whether there are new ones. A pair that was not
 // in contact and comes in fast there is an event instead.
 bool PlanMaker::add_rows_of(const world::World& world, int candidate) {
@@ -244,33 +270,54 @@ void PlanMaker::remember() const {
     }
 }
 
+// The members as their contacts that last make them alone, and the impulses (N s) that these need for it.
+std::vector<RigidBody> PlanMaker::without_arrivals(std::vector<double>& early) {
+  early.clear();
+  for (const Row& row : rows_) early.push_back(row.impulse);
+  if (std::none_of(rows_.begin(), rows_.end(), [](const Row& row) { return row.arrives && row.impulse > 0; }))
+    return fast_;
+  std::vector<RigidBody> bodies = drifting();
+  std::vector<std::size_t> lasting;
+  contact_list_.clear();
+  allowed_.clear();
+  impulses_.clear();
+  for (std::size_t r = 0; r < rows_.size(); ++r) {
+    early[r] = 0;
+    if (rows_[r].arrives) continue;
+    lasting.push_back(r);
+    contact_list_.push_back(rows_[r].contact);
+    allowed_.push_back(allowed(rows_[r]));
+    impulses_.push_back(rows_[r].impulse);
+  }
+  if (lasting.empty() || !solve(bodies)) return bodies;
+  for (std::size_t k = 0; k < lasting.size(); ++k) early[lasting[k]] = impulses_[k];
+  return bodies;
+}
+
 // Who goes by the plan: whoever is pushed, or ends in contact.
 Planned PlanMaker::take() {
-  const std::size_t count = courses_.members.size();
   const double length = courses_.length();
   remember();
   Planned result;
-  std::vector<char> goes(count, 0);
-  std::vector<RigidBody> drifting = fast_,
-                         ends = fast_;  // without the impulses, and without those of arrivals
-  for (std::size_t i = 0; i < count; ++i) {
-    drifting[i].velocity = courses_.drift[i].linear;
-    drifting[i].spin = courses_.drift[i].angular;
-  }
-  for (const Row& row : rows_) {
-    if (row.impulse > 0 || row.correction > 0 || row.end_gap < contacts_.margin())
+  std::vector<double> early;
+  std::vector<char> goes(courses_.members.size(), 0);
+  const std::vector<RigidBody> free = drifting(), ends = without_arrivals(early);
+  for (std::size_t r = 0; r < rows_.size(); ++r) {
+    const Row& row = rows_[r];
+    if (row.impulse > 0 || early[r] > 0 || row.correction > 0 || row.end_gap < contacts_.margin())
       for (const int member : {row.contact.body_a, row.contact.body_b}) goes[at(member)] = 1;
-    if (!(row.impulse > 0)) continue;
+    if (!(row.impulse > 0 || early[r] > 0)) continue;
     ++result.pushing;
-    if (row.arrives) lcp::apply_impulse(ends, row.contact, -row.impulse);
     result.kinematic_work += lcp::kinematic_work(fast_, row.contact, row.impulse);
-    PlannedRow told{row.contact,
-                    row.impulse,
-                    0,
-                    lcp::contact_velocity(drifting, row.contact),
-                    lcp::contact_velocity(fast_, row.contact),
-                    row.point.key,
-                    row.arrives};
+    result.early_work += lcp::kinematic_work(fast_, row.contact, early[r]);
+    PlannedRow told;
+    told.contact = row.contact;
+    told.impulse = row.impulse;
+    told.early = early[r];
+    told.before = lcp::contact_velocity(free, row.contact);
+    told.after = lcp::contact_velocity(fast_, row.contact);
+    told.key = row.point.key;
+    told.arrives = row.arrives;
     if (row.arrives) {
       told.contact.gap = row.end_gap;
       told.contact.point = row.point.middle(courses_.tracks[at(row.contact.body_a)].end,
@@ -280,7 +327,7 @@ Planned PlanMaker::take() {
     told.contact.body_b = courses_.members[at(row.contact.body_b)].number;
     result.rows.push_back(told);
   }
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < courses_.members.size(); ++i) {
     const RigidBody &path = path_[i], &fast = fast_[i], &end = ends[i];
     const double moved = length * ((path.velocity - fast.velocity).norm() +
                                    courses_.tracks[i].reach * (path.spin - fast.spin).norm());

@@ -10,21 +10,23 @@ namespace fc::resting {
 struct PlannedRow {
   lcp::Contact contact;          // bodies by their numbers in the world
   double impulse = 0;            // N s, of the whole plan
+  double early = 0;              // N s, of that which acts evenly all the time, and not at its end
   double back = 0;               // N s, that it gives back at the plan's end
   double before = 0, after = 0;  // m/s, the contact's velocity without and with the plan's impulses
   std::uint64_t key = 0;         // of its point
   bool arrives = false;  // it was not in contact at the start: what it does, it does at the plan's end
 };
 
-// What a plan's bodies do. An event may end it before its time: then only that share of its impulses has acted.
+// What a plan's bodies do. An event may end it before its time: then only that share of what acts all the time has acted, and
+// nothing of what acts at its end: what arrives there, and what that causes.
 struct Planned {
   std::vector<int> bodies;  // by their numbers in the world
   std::vector<world::Plan> courses;
-  std::vector<Twist> arrivals;   // what velocities get at the plan's end
-  int pushing = 0;               // contacts with an impulse,
-  std::vector<PlannedRow> rows;  // and what they do
-  double kinematic_work = 0;     // J, done by kinematic bodies
-  double correction = 0;         // m, by which a body's point is moved at most to put gaps right
+  std::vector<Twist> arrivals;                // what velocities get at the plan's end
+  int pushing = 0;                            // contacts with an impulse,
+  std::vector<PlannedRow> rows;               // and what they do
+  double kinematic_work = 0, early_work = 0;  // J, done by kinematic bodies, in all and all the time
+  double correction = 0;                      // m, by which a body's point is moved at most to put gaps right
 };
 
 struct PlanOptions {
@@ -81,10 +83,16 @@ class PlanMaker {
   };
   static std::size_t at(int index) { return static_cast<std::size_t>(index); }
   void add_row(const world::World& world, int candidate, const ContactPoint& point, bool arrives);
+  double allowed(const Row& row) const {  // m/s, for velocities
+    return std::max((row.gap + row.bend - row.keep) / courses_.length(), -row.most_push);
+  }
   bool comes_in_fast(const IslandPair& pair) const;
   bool solve();
   bool solve(std::vector<RigidBody>& bodies);
   Result close_ends();
+  bool gains() const;
+  std::vector<RigidBody> drifting() const;
+  std::vector<RigidBody> without_arrivals(std::vector<double>& early);
   void remember() const;
   bool add_rows_of(const world::World& world, int candidate);
   double end_speed(const Row& row, const std::vector<RigidBody>& bodies) const;

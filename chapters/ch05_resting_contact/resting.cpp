@@ -125,6 +125,8 @@ std::vector<int> Resting::meet(world::World& world, int a, int b, double now, wo
     ++meetings_[at(body)];
     if (world.yields(body)) instant.bodies.push_back(body);
   }
+  const auto is_crowded = [&](int body) { return crowd_of_[at(body)] >= 0; };
+  if (std::any_of(instant.bodies.begin(), instant.bodies.end(), is_crowded)) make_crowd(instant.bodies);
   return go_on(std::move(instant));
 }
 
@@ -202,24 +204,30 @@ void Resting::set_courses(Instant& instant, std::span<const Member> members, dou
 
 // An island that a crowd has got into belongs to it; else it becomes one if it `must`, or if it has events without end.
 void Resting::join_crowd(const Island& island, bool must) {
-  int crowd = -1;
+  std::vector<int> bodies;
   for (const Member& member : island.members) {
     if (!member.dynamic) continue;
-    crowd = std::max(crowd, crowd_of_[at(member.number)]);
-    must = must || meetings_[at(member.number)] > options_.most_meetings;
+    bodies.push_back(member.number);
+    must = must || crowd_of_[at(member.number)] >= 0 || meetings_[at(member.number)] > options_.most_meetings;
   }
-  if (crowd < 0 && !must) return;
+  if (must) make_crowd(bodies);
+}
+
+// One crowd of these bodies, and of all that are in a crowd with one of them.
+void Resting::make_crowd(std::span<const int> members) {
+  int crowd = -1;
+  for (const int body : members) crowd = std::max(crowd, crowd_of_[at(body)]);
   if (crowd < 0) {
     crowd = static_cast<int>(crowds_.size());
     crowds_.emplace_back();
   }
   std::vector<int>& bodies = crowds_[at(crowd)].bodies;
-  for (const Member& member : island.members) {
-    const int other = member.dynamic ? crowd_of_[at(member.number)] : crowd;
+  for (const int body : members) {
+    const int other = crowd_of_[at(body)];
     if (other == crowd) continue;
-    std::vector<int> joining = {member.number};
+    std::vector<int> joining = {body};
     if (other >= 0) joining = std::exchange(crowds_[at(other)].bodies, {});
-    for (const int body : joining) crowd_of_[at(body)] = crowd;
+    for (const int joins : joining) crowd_of_[at(joins)] = crowd;
     bodies.insert(bodies.end(), joining.begin(), joining.end());
   }
   std::sort(bodies.begin(), bodies.end());
@@ -243,11 +251,11 @@ void Resting::end_plan(Instant& instant, int number) {
     instant.bodies.push_back(member);
   }
   for (const PlannedRow& row : plan.what.rows) {
-    const double end = told_at(instant.now, dt_);
-    if (share > 0 && (whole || !row.arrives))
+    const double end = told_at(instant.now, dt_), acted = whole ? row.impulse : share * row.early;
+    if (acted > 0)
       records_.add({row.arrives ? end : plan.start,
                     row.contact,
-                    {0, 0, row.before, row.after, share * row.impulse},
+                    {0, 0, row.before, row.after, acted},
                     world::ContactKind::rest},
                    row.key);
     if (!whole || !(row.back > 0)) continue;
@@ -255,7 +263,7 @@ void Resting::end_plan(Instant& instant, int number) {
     instant.listeners.impact(
         {end, row.contact, {0, 0, row.before, row.after, row.back}, world::ContactKind::impact});
   }
-  instant.report.kinematic_work += share * plan.what.kinematic_work;
+  instant.report.kinematic_work += whole ? plan.what.kinematic_work : share * plan.what.early_work;
   plan.runs = false;
   free_plans_.push_back(number);
 }

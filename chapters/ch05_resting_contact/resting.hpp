@@ -80,6 +80,7 @@ class Resting : public world::Planner {
   double stand(Instant& instant, std::span<Member> members);
   void set_courses(Instant& instant, std::span<const Member> members, double before, double work);
   void join_crowd(const Island& island, bool must);
+  void make_crowd(std::span<const int> members);
   void end_plan(Instant& instant, int number);
   bool resolve(Instant& instant, Island& island);
   bool plan(Instant& instant, Island& island);
