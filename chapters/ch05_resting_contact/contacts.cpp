@@ -199,7 +199,7 @@ double Contacts::search_convex(const world::World& world, PairContacts& pair, co
                  patch);
       for (int i = 0; i < patch.count && !found; ++i) {
         const PatchPoint& point = patch.points[static_cast<std::size_t>(i)];
-        found = point.key != PatchPoint::kBroughtTogether && point.gap <= patch.gap + slack(patch.gap);
+        found = point.key != PatchPoint::kBroughtTogether && point.gap <= patch.gap + world.tolerance / 16;
       }
     }
   }

@@ -191,6 +191,8 @@ void find_patch(const PatchSide& a, const PatchSide& b, const ca::PairPose& pose
   for (const bool of_b : {false, true}) {
     const int face = of_b ? face_b : face_a;
     if (face < 0) continue;
+    if (of_b ? curved_b && outline_b.count < 3 : curved_a && outline_a.count < 3)
+      continue;  // it rolls out of its plane
     const Vec3 normal = of_b ? Vec3(-normal_of(of_b)) : normal_of(of_b);
     const double gap = ca::support_gap(core_a, core_b, pose, normal);
     if (gap < best) continue;

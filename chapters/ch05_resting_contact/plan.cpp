@@ -10,7 +10,7 @@ namespace {
 
 // Of what a gap lacks of the rest gap, so much is put right in a plan; gaps below this part of the margin at once.
 constexpr double kCorrect = 0.2, kLeastGap = 0.25;
-constexpr double kNearRest = 0.999;  // of the rest gap: nothing is put right from here on
+constexpr double kNearRest = 0.99999;  // of the rest gap: nothing is put right from here on
 
 // A path is clear if its gap stays above this part of the margin, or half of what it was.
 constexpr double kFloor = 1.0 / 64;
@@ -26,7 +26,7 @@ constexpr double kRoom = 0.55;
 constexpr std::int64_t kMostPairs = 1000, kMostPairsOfMeshes = 50'000;
 
 // Of the bodies' kinetic energy, by which pushes may add to it until the plan's end.
-constexpr double kMostBorrowed = 0.005;
+constexpr double kMostBorrowed = 0.002;
 
 constexpr int kMostProofs = 4;          // rounds in which unproved pairs become rows
 constexpr int kMostRounds = 8;          // in which the paths' ends are looked at again
@@ -133,7 +133,10 @@ bool PlanMaker::solve(std::vector<RigidBody>& bodies) {
   const IslandResult result = solver_.solve(bodies, contact_list_, allowed_, impulses_, options_.solver);
   residual_ = std::max(residual_, result.residual);
   ++solves_;
-  if (!result.solved) status_ = result.status;
+  if (!result.solved) {
+    status_ = result.status;
+    steps_ = result.steps;
+  }
   return result.solved;
 }
 

@@ -63,7 +63,8 @@ class PlanMaker {
   // If it meets: when the first two bodies that bounce are there, s from the plan's start.
   double meeting() const { return meeting_; }
   double worst_residual() const { return residual_; }
-  lcp::Status status() const { return status_; }  // of the last solution that failed
+  lcp::Status status() const { return status_; }  // of the last solution that failed,
+  int steps() const { return steps_; }            // and its pivots, sweeps or steps
   int solves() const { return solves_; }
   int checked() const { return courses_.checked(); }
 
@@ -107,7 +108,7 @@ class PlanMaker {
   std::vector<double> allowed_, impulses_;
   double residual_ = 0, meeting_ = 0;
   lcp::Status status_ = lcp::Status::limit;
-  int solves_ = 0;
+  int solves_ = 0, steps_ = 0;
 };
 
 }  // namespace fc::resting

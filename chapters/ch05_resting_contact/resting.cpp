@@ -17,7 +17,7 @@ constexpr int kMostBounces = 64;
 constexpr double kShortest = 1.0 / 4096;
 
 // So are plans of crowds with few rows, where paths would have to be shortened, down to this part.
-constexpr int kManyRows = 600;
+constexpr int kManyRows = 100;
 constexpr double kShortestOfCrowd = 1.0 / 512;
 
 // A plan that would leave less than this part of what is left of the frame takes it all.
@@ -328,7 +328,7 @@ bool Resting::plan(Instant& instant, Island& island) {
     instant.report.lcp_residual = std::max(instant.report.lcp_residual, maker_.worst_residual());
     if (result == Result::proved) break;
     if (result == Result::unsolved && options_.solver.chosen)
-      throw lcp::unsolved(instant.world.solver, maker_.status(), 0, maker_.worst_residual());
+      throw lcp::unsolved(instant.world.solver, maker_.status(), maker_.steps(), maker_.worst_residual());
     const bool meets = result == Result::meets && maker_.meeting() > kShortest * dt_;
     if (result == Result::unsolved || (!meets && length < kShortest * dt_)) return false;
     length = meets ? std::min(maker_.meeting(), 0.999 * length) : 0.5 * length;
@@ -352,16 +352,14 @@ void Resting::plan(Instant& instant, Crowd& crowd, std::span<const Member> membe
     planned = crowd_planner_.make(instant.world, members, instant.now, length, options);
     report_.checked += crowd_planner_.checked();
     report_.sweeps += crowd_planner_.sweeps();
-    const bool goes = crowd_planner_.shortened() == 0 && crowd_planner_.blocked().empty();
-    if (goes || (crowd_planner_.blocked().empty() && crowd_planner_.rows() > kManyRows)) break;
-    if (crowd_planner_.rows() <= kManyRows && length > kShortestOfCrowd * dt_) {
-      length *= 0.5;
+    if (!crowd_planner_.blocked().empty() && !std::exchange(stopped, true)) {
+      for (const int body : crowd_planner_.blocked())
+        stop(instant.world, body, instant.now, dt_, instant.report);
       continue;
     }
-    if (stopped || crowd_planner_.blocked().empty()) break;
-    for (const int body : crowd_planner_.blocked())
-      stop(instant.world, body, instant.now, dt_, instant.report);
-    stopped = true;
+    const bool is_small = crowd_planner_.rows() <= kManyRows && length > kShortestOfCrowd * dt_;
+    if (crowd_planner_.shortened() == 0 || !is_small) break;
+    length *= 0.5;
   }
   crowd.length = 2 * length;
   report_.shortened += crowd_planner_.shortened();

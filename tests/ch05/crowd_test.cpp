@@ -91,7 +91,7 @@ TEST(Sweeps, AgreeWithDantzig) {
       for (std::size_t i = 0; i < pile.contacts.size(); ++i)
         EXPECT_NEAR(
             fc::lcp::contact_velocity(bodies, pile.contacts[i]) + pile.allowed[i] - (is_path ? 0.05 : 0),
-            exact[static_cast<Eigen::Index>(i)], 1e-3)
+            exact[static_cast<Eigen::Index>(i)], 5e-3)
             << seed << " row " << i << (is_path ? " of paths" : " of velocities");
     }
   }
