@@ -256,7 +256,7 @@ void remember(const ClearDraft& draft) {
 }
 
 ClearResting::ClearResting(const Scene& scene, World& world, double dt)
-    : contacts_(world, envelope_of(scene, world)),
+    : contacts_(world, envelope_of(scene, world, dt)),
       islands_(contacts_, world.bodies.size()),
       no_crowds_(world.bodies.size(), -1),
       frame_(dt),

@@ -1,6 +1,7 @@
 // The contacts of pairs of bodies: found once, kept while the two move little against each other.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <unordered_map>
 #include <vector>
@@ -78,6 +79,7 @@ struct PairContacts {
   std::int64_t plan = 0;  // which asked for it last, and where it has it
   int place = -1;
 
+  int rank() const { return static_cast<int>(std::min<std::size_t>(points.size(), 6)); }
   Vec3 axis_at(const Pose& a_now, const Pose& b_now) const { return (of_b ? b_now : a_now).rotation * axis; }
 };
 
@@ -96,6 +98,11 @@ class Contacts {
 
   // The pair of two bodies, a != b; made if it is not known. It stays where it is.
   PairContacts& pair(int a, int b);
+  // It is in use in this frame.
+  void use(PairContacts& pair) const { pair.used = frame_; }
+  std::int64_t frame() const { return frame_; }
+  // A number that no plan has had yet.
+  std::int64_t next_number() { return ++number_; }
   // Forgets pairs that no frame has used for long.
   void next_frame();
   std::int64_t searched() const { return searched_; }  // pairs, in all
@@ -126,7 +133,7 @@ class Contacts {
   double margin_;
   std::vector<Facets> facets_;  // of each shape
   std::unordered_map<std::uint64_t, PairContacts> pairs_;
-  std::int64_t frame_ = 0, searched_ = 0;
+  std::int64_t frame_ = 0, searched_ = 0, number_ = 0;
 };
 
 }  // namespace fc::resting

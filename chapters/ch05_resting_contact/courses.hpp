@@ -23,7 +23,9 @@ struct Candidate {
 // The bodies of a plan, and what cannot be moved and is near them, on straight paths with constant spin.
 class Courses {
  public:
-  explicit Courses(Contacts& contacts) : contacts_(contacts) {}
+  // keep: pairs are kept from one start to the next, if it is of the same bodies. Plans of PlanMaker's pairs in contact are
+  // given to it anew, and cannot be.
+  Courses(Contacts& contacts, bool keep) : contacts_(contacts), keep_(keep) {}
 
   // For `length` seconds from `now` on (s in the frame). Nobody has a path yet.
   void start(const world::World& world, std::span<const Member> members, double now, double length);
@@ -70,12 +72,21 @@ class Courses {
 
  private:
   static std::size_t at(int index) { return static_cast<std::size_t>(index); }
+  bool keeps(const world::World& world, std::span<const Member> all);
   void add_member(const world::World& world, const Member& member);
+  void set_member(const world::World& world, std::size_t i, const Member& member);
+  void update(const world::World& world, const Candidate& pair, bool far);
+  std::vector<int> widen(const world::World& world);
   world::Bounds box_of(const world::World& world, int member) const;
   void add_pair(const world::World& world, int i, int j, bool far);
   double way(const Candidate& pair) const;
 
   Contacts& contacts_;
+  bool keep_;
+  bool fresh_ = true;        // nothing was found since the start
+  std::int64_t frame_ = 0;   // of the last start
+  int age_ = 0;              // starts with the same pairs
+  std::size_t first_ = 0;    // members that it was started with
   std::int64_t number_ = 0;  // of starts
   double now_ = 0, length_ = 0;
   std::vector<int> place_of_;  // of each body of the world among the members, or -1

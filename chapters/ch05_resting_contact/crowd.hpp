@@ -24,7 +24,7 @@ struct CrowdOptions {
 //      each other keep one share together, since then they move as they would, but slower.
 class CrowdPlanner {
  public:
-  explicit CrowdPlanner(Contacts& contacts) : contacts_(contacts), courses_(contacts) {}
+  explicit CrowdPlanner(Contacts& contacts) : contacts_(contacts), courses_(contacts, true) {}
 
   Planned make(const world::World& world, std::span<const Member> members, double now, double length,
                const CrowdOptions& options);

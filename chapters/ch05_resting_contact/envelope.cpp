@@ -28,7 +28,7 @@ double thinnest(const world::World& world) {
 
 }  // namespace
 
-double envelope_of(const Scene& scene, const world::World& world) {
+double envelope_of(const Scene& scene, const world::World& world, double dt) {
   double envelope = *scene.envelope;
   if (envelope == 0) {
     double smallest = std::numeric_limits<double>::infinity();
@@ -48,8 +48,7 @@ double envelope_of(const Scene& scene, const world::World& world) {
         fmt::format("an envelope of {:.3g} m is more than half of what the thinnest body that moves measures "
                     "({:.3g} m); narrow it",
                     envelope, 2 * half));
-  const double dt = scene.step->dt,
-               fall = world.effects.gravity ? world.effects.gravity->norm() * dt * dt : 0;
+  const double fall = world.effects.gravity ? world.effects.gravity->norm() * dt * dt : 0;
   if (std::numeric_limits<double>::epsilon() * fall > kMostRounding * envelope)
     refuse(
         scene,

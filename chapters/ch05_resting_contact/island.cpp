@@ -96,7 +96,7 @@ std::vector<std::vector<int>> find_crowds(const world::World& world, Contacts& c
       arrivals[static_cast<std::size_t>(low)] += arrivals[static_cast<std::size_t>(high)];
       points[static_cast<std::size_t>(low)] += points[static_cast<std::size_t>(high)];
     }
-    const int known = static_cast<int>(pair.points.size());
+    const int known = pair.rank();
     if (known == 0 || pair.gap > contacts.margin())
       ++arrivals[static_cast<std::size_t>(low)];
     else

@@ -34,6 +34,12 @@ struct Island {
     for (const IslandPair& pair : pairs) count += static_cast<int>(pair.contacts->points.size());
     return count;
   }
+  // So many of them can push at once, at most: six of two bodies.
+  int rank() const {
+    int count = 0;
+    for (const IslandPair& pair : pairs) count += pair.contacts->rank();
+    return count;
+  }
 };
 
 // Finds islands. Bodies' states are those at the instant that the last begin() named.
@@ -59,9 +65,9 @@ class IslandFinder {
 };
 
 // How much work it would be to follow bodies from event to event: with so many pairs of which each may come into contact, and
-// so many contact points of those that are.
-inline double event_work(int arrivals, int points) {
-  const double rows = 8 + points;
+// so many contact points that can push at once.
+inline double event_work(int arrivals, int rank) {
+  const double rows = 8 + rank;
   return (1 + arrivals) * rows * rows;
 }
 

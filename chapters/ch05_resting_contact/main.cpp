@@ -14,7 +14,7 @@ std::vector<Effect> explain(const Scene& scene) {
   std::vector<Effect> list = world::explain(scene);
   if (!scene.envelope) return list;
   const world::World world = world::build_world(scene);
-  const double margin = resting::envelope_of(scene, world);
+  const double margin = resting::envelope_of(scene, world, scene.step->dt);
   const std::string why = "declared at " + scene.mark("envelope")->text();
   list.push_back({"envelope", why,
                   fmt::format("bodies nearer than {:.3g} m are in contact, and rest {:.3g} m apart", margin,

@@ -51,7 +51,7 @@ double wanted_gap(double gap, double margin);
 // which lets velocities end with no contact closing, is the next instant's impact law.
 class PlanMaker {
  public:
-  explicit PlanMaker(Contacts& contacts) : contacts_(contacts), courses_(contacts) {}
+  explicit PlanMaker(Contacts& contacts) : contacts_(contacts), courses_(contacts, false) {}
 
   enum class Result { proved, unproved, meets, unsolved };
   // For `length` seconds from `now` on (s in the frame).

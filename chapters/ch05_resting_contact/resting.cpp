@@ -49,7 +49,7 @@ void stop(world::World& world, int kinematic, double now, double dt, world::Step
 }  // namespace
 
 Resting::Resting(const Scene& scene, world::World& world, double dt, const RestOptions& options)
-    : contacts_(world, envelope_of(scene, world)),
+    : contacts_(world, envelope_of(scene, world, dt)),
       islands_(contacts_, world.bodies.size()),
       maker_(contacts_),
       crowd_planner_(contacts_),
@@ -140,7 +140,7 @@ std::vector<int> Resting::go_on(Instant instant) {
     if (crowd_of_[at(body)] < 0) {
       if (islands_.is_in_island(body)) continue;
       Island island = islands_.grow(instant.world, body, crowd_of_);
-      join_crowd(island, event_work(0, island.points()) > options_.most_work);
+      join_crowd(island, event_work(0, island.rank()) > options_.most_work);
       if (crowd_of_[at(body)] < 0) go_on(instant, island);
     }
     const int crowd = crowd_of_[at(body)];
