@@ -29,7 +29,7 @@ struct RestReport {
 };
 
 struct RestOptions {
-  double most_work = 1e5;   // see event_work(): more makes a crowd
+  double most_work = 2e5;   // see event_work(): more makes a crowd
   int most_meetings = 256;  // and so does a body that meets others more often in one frame
   int sweeps = 16;          // of a crowd's rows
   IslandOptions solver = {};

@@ -175,7 +175,7 @@ TEST(Landing, WithoutBounceLosesNoTime) {
 // Two stacks of three: both fall asleep, and cost no row; a ball wakes the one that it falls on, and nobody
 // else; then that one sleeps again, with the ball on top. As an island, and as a pile.
 TEST(Sleep, WakesWhoeverIsTouched) {
-  for (const double most_work : {1e5, 0.0}) {
+  for (const double most_work : {2e5, 0.0}) {
     Simulation s(
         "sleep: {after: 0.2, speed: 0.01}\n" + head +
             "  - {shape: box, grid: {count: [2, 1, 3], spacing: [5, 1, 1.0001]}, position: [0, 0, 0.5001]}\n"
@@ -263,7 +263,7 @@ TEST(Program, TheScenesSolverSolvesRestingContacts) {
 // A driven plate pushes two boxes against a wall, and cannot: nobody is run through, neither by the exact
 // solution nor in a pile, and what the plate does on the way is told.
 TEST(Driven, APlateThatCannotGoOnIsStopped) {
-  for (const double most_work : {1e5, 0.0}) {
+  for (const double most_work : {2e5, 0.0}) {
     Simulation s(
         "step: {dt: 0.01, duration: 1}\nenvelope: 5.0e-4\nshapes:\n"
         "  box: {box: {size: [1, 1, 1]}, mass: 2}\nbodies:\n"
