@@ -1,4 +1,4 @@
-"""Chapter 5's picture of what a solver's residual is worth: the forces under a stack of ten boxes, and a heap.
+"""Chapter 5's picture of what sweeps are worth: the forces under a stack of ten boxes, and a heap.
 
 Reads RUN_DIR/forces.csv and RUN_DIR/heap.csv of ch05_study --part solvers.
 """
@@ -22,8 +22,7 @@ def stack(axes: plt.Axes, table: Table) -> None:
                                       ("drift", "drift in a second [m]", ORANGE, "D")]:
         axes.loglog(table["knob"][rows], np.maximum(table[name][rows], LEAST), mark + "-", color=colour, ms=4, label=label)
     axes.axhline(table["first_error"][solver == "dantzig"][0], color=GREY, ls=":", lw=1.2, label="force, Dantzig's method [1]")
-    axes.invert_xaxis()
-    axes.set(title="A stack of ten, by Gauss–Seidel", xlabel="residual that is asked for", ylabel="error (0 stands at the bottom)", ylim=(0.5 * LEAST, 1))
+    axes.set(title="A stack of ten, by Gauss–Seidel", xlabel="sweeps in a plan", ylabel="error (0 stands at the bottom)", ylim=(0.5 * LEAST, 1))
     axes.legend(loc="upper center", bbox_to_anchor=(0.45, -0.19))
 
 
@@ -38,9 +37,9 @@ def heap(residual: plt.Axes, time: plt.Axes, table: Table) -> None:
     time.axhline(ms[exact][0], color=GREY, ls=":", lw=1.2, label="Dantzig's method")
     time.set(title="… and what it takes", ylabel="ms for a simulated second", ylim=(0, 1.25 * ms.max()))
     time.legend(loc="upper center", bbox_to_anchor=(0.45, -0.19))
-    ticks = [5, 20, 80, 320]
+    ticks = [2, 8, 32, 128]
     for axes in (residual, time):
-        axes.set_xlabel("sweeps, at most, in a frame")
+        axes.set_xlabel("sweeps in a plan")
         axes.set_xticks(ticks, [str(t) for t in ticks])
         axes.minorticks_off()
 

@@ -185,7 +185,6 @@ void ClearDraft::add_row(PairContacts& pair, int a, int b, const ContactPoint& p
   starts.push_back(contact_at(world, members, mean, a, b, point));
 }
 
-// ANCHOR: clear_room
 // What each row may lose of its gap per second: for velocities, or for paths. A velocity is made to part by no more than the
 // speed that the plan's end takes back: else it would be energy from nowhere.
 VecX ClearDraft::room(bool correcting) const {
@@ -196,7 +195,6 @@ VecX ClearDraft::room(bool correcting) const {
   }
   return room;
 }
-// ANCHOR_END: clear_room
 
 // Where the bodies stand at the end.
 void ClearDraft::follow_paths() {
@@ -226,7 +224,6 @@ bool ClearDraft::has_new_rows() {
   return ++proofs <= kMostProofs && std::ssize(rows) > std::exchange(known, std::ssize(rows));
 }
 
-// ANCHOR: clear_path
 // Chapter 4's gap rule for a pair on its way through the plan: it keeps half of its gap, or of the rest gap.
 bool ClearDraft::is_clear(int i, int j) {
   PairContacts& pair = contacts.pair(members[i].number, members[j].number);
@@ -245,7 +242,6 @@ bool ClearDraft::is_clear(int i, int j) {
   }
   return false;
 }
-// ANCHOR_END: clear_path
 
 // Points at which a plan pushes are marked: that they close at its end is the other half of their force, and no impact.
 void remember(const ClearDraft& draft) {

@@ -130,7 +130,6 @@ std::vector<int> Resting::meet(world::World& world, int a, int b, double now, wo
   return go_on(std::move(instant));
 }
 
-// ANCHOR: instant
 // These bodies, and all that they are in contact with, directly or over others.
 std::vector<int> Resting::go_on(Instant instant) {
   islands_.begin(instant.now);
@@ -174,7 +173,6 @@ void Resting::go_on(Instant& instant, Crowd& crowd) {
   set_courses(instant, members, before, work);
   if (instant.now < dt_) plan(instant, crowd, members);
 }
-// ANCHOR_END: instant
 
 // All stand where they are now; the plans that moved them end. Returns the energy (J) with which they began their courses.
 double Resting::stand(Instant& instant, std::span<Member> members) {
