@@ -166,8 +166,7 @@ class Stepper {
     for (const lcp::Contact& contact : island.contacts)
       for (const int number : {contact.body_a, contact.body_b}) {
         const Body& body = world_.bodies[number];
-        if (!world_.yields(number) || body.state.free_moves != Vec3::Ones() || body.asleep ||
-            is_still(body))
+        if (!world_.yields(number) || body.state.free_moves != Vec3::Ones() || body.asleep || is_still(body))
           return false;
       }
     return true;

@@ -23,7 +23,7 @@ namespace fc::world {
 // velocities meanwhile change evenly. The bodies of one plan are proved to keep apart from each other, and from all that
 // nothing moves, until they get another course.
 struct Plan {
-  int number = -1;                                       // -1: the body flies
+  int number = -1;                                     // -1: the body flies
   Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();  // m/s, rad/s, of the path
   Vec3 push = Vec3::Zero(), turn = Vec3::Zero();       // m/s^2, rad/s^2, of the velocities
 };
@@ -82,7 +82,7 @@ struct World {
   double tolerance = 1e-6;                   // m; the scene's, or what rounding allows at least
   std::int64_t max_pairs = 1'000'000;        // of nodes, for one search; it then goes on from where it got to
   double part_start = 0;  // s, in the frame: from where the times of its bodies count, if it is cut in parts
-  double reserve = 0;  // m, half of which a pair has left when it is stopped; 0: the tolerance
+  double reserve = 0;     // m, half of which a pair has left when it is stopped; 0: the tolerance
   lcp::ImpactOptions impact = {};  // the solver of an instant's contacts
   SolverSpec solver;               // what the scene says of it
 

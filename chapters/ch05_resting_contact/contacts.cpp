@@ -182,9 +182,8 @@ void Contacts::add(PairContacts& pair, const ContactPoint& point, const std::vec
 double Contacts::search_convex(const world::World& world, PairContacts& pair, const Pose& a, const Pose& b,
                                double reach) {
   const ca::PairPose pose(a, b);
-  const PatchSide side_a{world.model_of(pair.a),
-                         facets_[static_cast<std::size_t>(world.bodies[pair.a].shape)]},
-      side_b{world.model_of(pair.b), facets_[static_cast<std::size_t>(world.bodies[pair.b].shape)]};
+  const PatchSide side_a{world.model_of(pair.a), facets_[at(world.bodies[pair.a].shape)]},
+      side_b{world.model_of(pair.b), facets_[at(world.bodies[pair.b].shape)]};
   const auto slack = [&](double gap) { return std::clamp(0.25 * gap, 0.0, kSlack * margin_); };
   Patch patch;
   ca::GjkResult result;
@@ -198,7 +197,7 @@ double Contacts::search_convex(const world::World& world, PairContacts& pair, co
       find_patch(side_a, side_b, pose, result, slack(result.lower), kFar * margin_ + (reach - margin_),
                  patch);
       for (int i = 0; i < patch.count && !found; ++i) {
-        const PatchPoint& point = patch.points[static_cast<std::size_t>(i)];
+        const PatchPoint& point = patch.points[at(i)];
         found = point.key != PatchPoint::kBroughtTogether && point.gap <= patch.gap + world.tolerance / 16;
       }
     }
@@ -225,7 +224,7 @@ double Contacts::search_convex(const world::World& world, PairContacts& pair, co
   pair.of_b = patch.of_b;
   pair.axis = (patch.of_b ? b : a).rotation.transpose() * patch.normal;
   for (int i = 0; i < patch.count; ++i) {
-    const PatchPoint& p = patch.points[static_cast<std::size_t>(i)];
+    const PatchPoint& p = patch.points[at(i)];
     ContactPoint point;
     point.a = surface_point(world.model_of(pair.a), p.point_a, a.rotation.transpose() * patch.normal);
     point.b = surface_point(world.model_of(pair.b), p.point_b, -(b.rotation.transpose() * patch.normal));

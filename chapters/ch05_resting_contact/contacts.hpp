@@ -11,6 +11,10 @@
 
 namespace fc::resting {
 
+inline std::size_t at(int index) {
+  return static_cast<std::size_t>(index);
+}
+
 // A place on a body's surface, for a plane that touches it there. On a face, edge or corner it is fixed in the body; on what is
 // round it moves with the plane: a ball's lies on its radius along the normal, that of a disk's rim where the rim is farthest.
 struct SurfacePoint {

@@ -101,6 +101,16 @@ void Courses::set_member(const world::World& world, std::size_t i, const Member&
   tracks[i] = straight_track(member.state, u.linear, u.angular, reach, length_);
 }
 
+std::vector<RigidBody> Courses::with(const std::vector<Twist>& velocities) const {
+  std::vector<RigidBody> bodies;
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    bodies.push_back(members[i].state);
+    bodies.back().velocity = velocities[i].linear;
+    bodies.back().spin = velocities[i].angular;
+  }
+  return bodies;
+}
+
 void Courses::go(int member, const Twist& path) {
   Track& track = tracks[at(member)];
   if (!members[at(member)].dynamic || (track.velocity == path.linear && track.spin == path.angular)) return;

@@ -61,6 +61,9 @@ class Courses {
   PathVerdict check(const world::World& world, const Candidate& pair, const Track& a, const Track& b,
                     PathOptions options);
 
+  // The members, with these velocities.
+  std::vector<RigidBody> with(const std::vector<Twist>& velocities) const;
+
   double length() const { return length_; }
   int checked() const { return checked_; }
 
@@ -71,7 +74,6 @@ class Courses {
   std::vector<Candidate> candidates;
 
  private:
-  static std::size_t at(int index) { return static_cast<std::size_t>(index); }
   bool keeps(const world::World& world, std::span<const Member> all);
   void add_member(const world::World& world, const Member& member);
   void set_member(const world::World& world, std::size_t i, const Member& member);

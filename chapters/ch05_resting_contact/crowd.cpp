@@ -29,6 +29,9 @@ class Shortening {
         pairs_of_(courses.members.size()) {}
 
   void run(double floor) {
+    if (std::all_of(courses_.candidates.begin(), courses_.candidates.end(),
+                    [](const Candidate& c) { return c.clear; }))
+      return;
     const int count = static_cast<int>(courses_.candidates.size());
     std::vector<char> waits(courses_.candidates.size(), 0);
     std::vector<int> waiting;
@@ -54,8 +57,10 @@ class Shortening {
         }
       }
     }
+    for (int i = 0; i < static_cast<int>(shares_.size()); ++i) courses_.tracks[at(i)] = scaled(i);
   }
 
+ private:
   Track scaled(int member) const {
     const Track& track = courses_.tracks[at(member)];
     const double share = shares_[at(member)];
@@ -63,9 +68,6 @@ class Shortening {
     return straight_track(courses_.members[at(member)].state, share * track.velocity, share * track.spin,
                           track.reach, courses_.length());
   }
-
- private:
-  static std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
   // Lowers the shares of the two until their paths are clear: the larger one first, at most to the smaller; then both alike,
   // since together they move as they would, but slower.
@@ -128,7 +130,12 @@ Planned CrowdPlanner::make(const world::World& world, std::span<const Member> me
   swept_ = sweeps_.run(options_.sweeps);
   find_paths(world);
   shares_.assign(courses_.members.size(), 1);
-  shorten(world);
+  Shortening(world, courses_, shares_, blocked_).run(kFloor * contacts_.margin());
+  for (std::size_t i = 0; i < shares_.size(); ++i) {
+    if (shares_[i] == 1) continue;
+    ++shortened_;
+    lost_ += (1 - shares_[i]) * courses_.members[i].state.mass * velocities_[i].linear.norm();
+  }
   drop_what_acts_on_air();
   return take(world);
 }
@@ -218,22 +225,6 @@ void CrowdPlanner::look_again(const world::World& world, int candidate) {
   }
 }
 
-// Step 3.
-void CrowdPlanner::shorten(const world::World& world) {
-  if (std::all_of(courses_.candidates.begin(), courses_.candidates.end(),
-                  [](const Candidate& c) { return c.clear; }))
-    return;
-  Shortening shortening(world, courses_, shares_, blocked_);
-  shortening.run(kFloor * contacts_.margin());
-  for (int i = 0; i < static_cast<int>(courses_.members.size()); ++i) {
-    const double share = shares_[at(i)];
-    if (share == 1) continue;
-    ++shortened_;
-    lost_ += (1 - share) * courses_.members[at(i)].state.mass * velocities_[at(i)].linear.norm();
-    courses_.tracks[at(i)] = shortening.scaled(i);
-  }
-}
-
 // An impulse at the end of a path needs a contact there.
 void CrowdPlanner::drop_what_acts_on_air() {
   constexpr int kMostTimes = 3, kSweeps = 4;
@@ -254,17 +245,6 @@ void CrowdPlanner::drop_what_acts_on_air() {
   }
   std::vector<Twist> paths;
   sweeps_.work_out(velocities_, paths);
-}
-
-// The members with their velocities at the end.
-std::vector<RigidBody> CrowdPlanner::ends() const {
-  std::vector<RigidBody> bodies;
-  for (std::size_t i = 0; i < courses_.members.size(); ++i) {
-    bodies.push_back(courses_.members[i].state);
-    bodies.back().velocity = velocities_[i].linear;
-    bodies.back().spin = velocities_[i].angular;
-  }
-  return bodies;
 }
 
 // What bounces gives back what its restitution says, with the largest factor <= 1 for all with which this takes no more energy
@@ -315,7 +295,7 @@ void CrowdPlanner::remember() const {
 
 // All impulses act at the end.
 Planned CrowdPlanner::take(const world::World& world) {
-  const std::vector<RigidBody> swept = ends();
+  const std::vector<RigidBody> swept = courses_.with(velocities_);
   std::vector<RigidBody> bounced = swept;
   give_back(world, bounced);
   remember();

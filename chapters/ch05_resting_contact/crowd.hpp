@@ -49,7 +49,6 @@ class CrowdPlanner {
     bool late;      // found at the end of a path that is not clear
     bool arrives;   // not in contact at the start
   };
-  static std::size_t at(int index) { return static_cast<std::size_t>(index); }
   const ContactPoint& point_of(const Row& row) const {
     return row.late ? late_[at(row.place)]
                     : courses_.candidates[at(row.pair)].contacts->points[at(row.place)];
@@ -59,10 +58,8 @@ class CrowdPlanner {
   int add_row(const world::World& world, int candidate, int place, bool late);
   void find_paths(const world::World& world);
   void look_again(const world::World& world, int candidate);
-  void shorten(const world::World& world);
   void drop_what_acts_on_air();
   void remember() const;
-  std::vector<RigidBody> ends() const;
   void give_back(const world::World& world, std::vector<RigidBody>& bodies);
   Planned take(const world::World& world);
 

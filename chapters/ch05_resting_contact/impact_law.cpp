@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "ch03_impulse_lcp/impact.hpp"
 
@@ -52,6 +53,69 @@ bool give_back(std::vector<RigidBody>& bodies, const std::vector<lcp::Contact>& 
   return true;
 }
 
+// The points of an island that are in contact, and what is known of each before the instant.
+struct Touching {
+  std::vector<lcp::Contact>
+      contacts;                // bodies by their places among the members; a compression has no restitution
+  std::vector<double> speeds;  // m/s
+  std::vector<double> restitution;
+  std::vector<double> guesses;  // N s
+  std::vector<char> is_fast;    // it comes in fast
+  std::vector<std::uint64_t> keys;
+};
+
+Touching touching(const world::World& world, const Island& island, std::span<const RigidBody> bodies,
+                  double margin, const InstantOptions& options) {
+  Touching result;
+  for (const IslandPair& pair : island.pairs) {
+    const int number_a = island.members[at(pair.a)].number, number_b = island.members[at(pair.b)].number;
+    const Pose pose_a = bodies[at(pair.a)].pose(), pose_b = bodies[at(pair.b)].pose();
+    const bool bounces = options.bounces(number_a) && options.bounces(number_b);
+    for (const ContactPoint& point : pair.contacts->points) {
+      const double gap = point.gap_at(pose_a, pose_b);
+      if (gap > margin) continue;
+      const lcp::Contact contact{
+          pair.a, pair.b, point.middle(pose_a, pose_b), point.normal_at(pose_a, pose_b),
+          gap,    0,      world.turns(number_a),        world.turns(number_b)};
+      const double speed = lcp::contact_velocity(bodies, contact);
+      const bool fast = speed < -options.rest_speed && !point.lasts;
+      if (fast && gap > kThere * margin) continue;
+      result.contacts.push_back(contact);
+      result.speeds.push_back(speed);
+      result.restitution.push_back(bounces ? world.restitution_of(number_a, number_b) : 0);
+      result.guesses.push_back(point.force * options.guess);
+      result.is_fast.push_back(fast);
+      result.keys.push_back(point.key);
+    }
+  }
+  return result;
+}
+
+// Both stages, again as long as something closes; N s of each contact, in all. Nothing if a stage could not be solved.
+std::optional<std::vector<double>> stop_what_closes(std::vector<RigidBody>& bodies, const Touching& island,
+                                                    double rounding, IslandSolver& solver,
+                                                    const InstantOptions& options, InstantResult& result) {
+  const std::vector<lcp::Contact>& contacts = island.contacts;
+  const std::vector<double> allowed(contacts.size(), 0.0);
+  std::vector<double> impulses = island.guesses, speeds = island.speeds, total(contacts.size(), 0.0);
+  for (int round = 0; round <= kMostBounces; ++round) {
+    const IslandResult solved = solver.solve(bodies, contacts, allowed, impulses, options.solver);
+    result.residual = std::max(result.residual, solved.residual);
+    result.steps += solved.steps;
+    result.status = solved.status;
+    result.rows += static_cast<int>(contacts.size());
+    ++result.solves;
+    if (!solved.solved) return {};
+    for (std::size_t i = 0; i < contacts.size(); ++i) total[i] += impulses[i];
+    if (!result.impact || round == kMostBounces) break;
+    if (!give_back(bodies, contacts, island.restitution, impulses, total, speeds)) break;
+    for (std::size_t i = 0; i < contacts.size(); ++i) speeds[i] = lcp::contact_velocity(bodies, contacts[i]);
+    if (*std::min_element(speeds.begin(), speeds.end()) >= -rounding) break;
+    std::fill(impulses.begin(), impulses.end(), 0.0);
+  }
+  return total;
+}
+
 }  // namespace
 
 InstantResult resolve_instant(const world::World& world, Island& island, double margin, IslandSolver& solver,
@@ -59,89 +123,33 @@ InstantResult resolve_instant(const world::World& world, Island& island, double 
   InstantResult result;
   std::vector<RigidBody> bodies;
   for (const Member& member : island.members) bodies.push_back(member.state);
-  std::vector<lcp::Contact> contacts;
-  std::vector<double> impulses, before, restitution;
-  std::vector<char> comes_in;  // fast
-  std::vector<std::uint64_t> keys;
-  for (const IslandPair& pair : island.pairs) {
-    const int number_a = island.members[static_cast<std::size_t>(pair.a)].number,
-              number_b = island.members[static_cast<std::size_t>(pair.b)].number;
-    const RigidBody &a = bodies[static_cast<std::size_t>(pair.a)],
-                    &b = bodies[static_cast<std::size_t>(pair.b)];
-    const Pose pose_a = a.pose(), pose_b = b.pose();
-    for (const ContactPoint& point : pair.contacts->points) {
-      const double gap = point.gap_at(pose_a, pose_b);
-      if (gap > margin) continue;
-      const bool bounces = options.bounces(number_a) && options.bounces(number_b);
-      const lcp::Contact contact{pair.a,
-                                 pair.b,
-                                 point.middle(pose_a, pose_b),
-                                 point.normal_at(pose_a, pose_b),
-                                 gap,
-                                 0,  // a compression has none
-                                 world.turns(number_a),
-                                 world.turns(number_b)};
-      const double speed = lcp::contact_velocity(bodies, contact);
-      const bool fast = speed < -options.rest_speed && !point.lasts;
-      if (fast && gap > kThere * margin) continue;
-      contacts.push_back(contact);
-      restitution.push_back(bounces ? world.restitution_of(number_a, number_b) : 0);
-      impulses.push_back(point.force * options.guess);
-      before.push_back(speed);
-      comes_in.push_back(fast);
-      keys.push_back(point.key);
-      result.impact = result.impact || fast;
-    }
-  }
-  if (contacts.empty()) return result;
-  const double rounding = lcp::approach_rounding(bodies, contacts);
-  if (*std::min_element(before.begin(), before.end()) >= -rounding) return result;
-
-  const double energy = kinetic(bodies);
-  std::vector<double> allowed(contacts.size(), 0.0), total(contacts.size(), 0.0);
-  const auto compress = [&] {
-    const IslandResult solved = solver.solve(bodies, contacts, allowed, impulses, options.solver);
-    result.residual = std::max(result.residual, solved.residual);
-    result.steps += solved.steps;
-    result.status = solved.status;
-    result.rows += static_cast<int>(contacts.size());
-    ++result.solves;
-    for (std::size_t i = 0; i < contacts.size() && solved.solved; ++i) total[i] += impulses[i];
-    return solved.solved;
-  };
   const std::vector<RigidBody> start = bodies;
-  std::vector<double> start_speeds = before;
-  result.contacts = static_cast<int>(contacts.size());
-  result.solved = compress();
-  if (!result.solved) return result;
-  for (int round = 0; result.impact; ++round) {
-    if (!give_back(bodies, contacts, restitution, impulses, total, start_speeds)) break;
-    double fastest = 0;
-    for (std::size_t i = 0; i < contacts.size(); ++i) {
-      start_speeds[i] = lcp::contact_velocity(bodies, contacts[i]);
-      fastest = std::min(fastest, start_speeds[i]);
-    }
-    if (fastest >= -rounding) break;
-    std::fill(impulses.begin(), impulses.end(), 0.0);
-    if (!compress()) return result.solved = false, result;
-    if (round + 1 >= kMostBounces) break;
-  }
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    if (!(total[i] > 0)) continue;
-    result.changed = true;
-    result.kinematic_work += lcp::kinematic_work(start, contacts[i], total[i]);
+  const Touching points = touching(world, island, bodies, margin, options);
+  if (points.contacts.empty()) return result;
+  result.impact = std::find(points.is_fast.begin(), points.is_fast.end(), 1) != points.is_fast.end();
+  const double rounding = lcp::approach_rounding(bodies, points.contacts);
+  if (*std::min_element(points.speeds.begin(), points.speeds.end()) >= -rounding) return result;
+
+  result.contacts = static_cast<int>(points.contacts.size());
+  const auto total = stop_what_closes(bodies, points, rounding, solver, options, result);
+  result.solved = total.has_value();
+  if (!total) return result;
+  for (std::size_t i = 0; i < points.contacts.size(); ++i) {
+    const double impulse = (*total)[i];
+    if (!(impulse > 0)) continue;
+    result.kinematic_work += lcp::kinematic_work(start, points.contacts[i], impulse);
     world::ImpactRecord record;
     record.time = options.time;
-    record.contact = contacts[i];
-    record.contact.body_a = island.members[static_cast<std::size_t>(contacts[i].body_a)].number;
-    record.contact.body_b = island.members[static_cast<std::size_t>(contacts[i].body_b)].number;
-    record.impulse = {static_cast<int>(i), 0, before[i], lcp::contact_velocity(bodies, contacts[i]),
-                      total[i]};
-    record.kind = comes_in[i] ? world::ContactKind::impact : world::ContactKind::rest;
+    record.contact = points.contacts[i];
+    record.impulse = {static_cast<int>(i), 0, points.speeds[i], lcp::contact_velocity(bodies, record.contact),
+                      impulse};
+    record.contact.body_a = island.members[at(record.contact.body_a)].number;
+    record.contact.body_b = island.members[at(record.contact.body_b)].number;
+    record.kind = points.is_fast[i] ? world::ContactKind::impact : world::ContactKind::rest;
     result.records.push_back(record);
-    result.keys.push_back(keys[i]);
+    result.keys.push_back(points.keys[i]);
   }
-  result.energy_gain = kinetic(bodies) - energy - result.kinematic_work;
+  result.energy_gain = kinetic(bodies) - kinetic(start) - result.kinematic_work;
   for (std::size_t i = 0; i < bodies.size(); ++i)
     if (island.members[i].dynamic) island.members[i].state = bodies[i];
   return result;

@@ -17,7 +17,7 @@ struct InstantOptions {
 };
 
 struct InstantResult {
-  bool solved = true, changed = false;
+  bool solved = true;
   bool impact = false;  // something came in faster than rest_speed
   std::vector<world::ImpactRecord> records;
   std::vector<std::uint64_t> keys;  // of their points

@@ -16,14 +16,14 @@ void IslandFinder::begin(double now) {
 }
 
 int IslandFinder::place_of(const world::World& world, Island& island, int body) {
-  int& place = place_[static_cast<std::size_t>(body)];
+  int& place = place_[at(body)];
   const bool dynamic = world.yields(body);
-  const bool known = dynamic ? stamp_[static_cast<std::size_t>(body)] == island_ : place >= 0;
+  const bool known = dynamic ? stamp_[at(body)] == island_ : place >= 0;
   if (known) return place;
   place = static_cast<int>(island.members.size());
-  if (dynamic) stamp_[static_cast<std::size_t>(body)] = island_;
+  if (dynamic) stamp_[at(body)] = island_;
   RigidBody state = world.state_at(body, now_);
-  if (world.bodies[static_cast<std::size_t>(body)].held) state.velocity = state.spin = Vec3::Zero();
+  if (world.bodies[at(body)].held) state.velocity = state.spin = Vec3::Zero();
   island.members.push_back({body, state, dynamic});
   return place;
 }
@@ -34,9 +34,9 @@ Island IslandFinder::grow(const world::World& world, int body, const std::vector
   place_of(world, island, body);
   for (std::size_t next = 0; next < island.members.size(); ++next) {
     const int i = island.members[next].number;
-    if (!island.members[next].dynamic || crowd_of[static_cast<std::size_t>(i)] >= 0) continue;
+    if (!island.members[next].dynamic || crowd_of[at(i)] >= 0) continue;
     const Pose pose = island.members[next].state.pose();
-    const auto shape = static_cast<std::size_t>(world.bodies[static_cast<std::size_t>(i)].shape);
+    const auto shape = at(world.bodies[at(i)].shape);
     const Vec3 half = (pose.rotation.cwiseAbs() * world.half_extents[shape])
                           .cwiseMin(Vec3::Constant(world.shapes[shape].reach)) +
                       Vec3::Constant(contacts_.margin());
@@ -44,8 +44,8 @@ Island IslandFinder::grow(const world::World& world, int body, const std::vector
     world.schedule.overlapping({pose.position - half, pose.position + half}, [&](int other) {
       if (other == i || world::is_sensor_pair(world, i, other)) return;
       // Of two that can be moved, whoever was looked at first has looked at both.
-      const auto at = static_cast<std::size_t>(other);
-      const bool done = stamp_[at] == island_ && place_[at] < static_cast<int>(next) && crowd_of[at] < 0;
+      const auto k = at(other);
+      const bool done = stamp_[k] == island_ && place_[k] < static_cast<int>(next) && crowd_of[k] < 0;
       if (!world.yields(other) || !done) others_.push_back(other);
     });
     std::sort(others_.begin(), others_.end());
@@ -62,7 +62,7 @@ Island IslandFinder::grow(const world::World& world, int body, const std::vector
     if (member.dynamic)
       ++island.dynamic;
     else
-      place_[static_cast<std::size_t>(member.number)] = -1;
+      place_[at(member.number)] = -1;
   }
   return island;
 }
@@ -73,45 +73,41 @@ std::vector<std::vector<int>> find_crowds(const world::World& world, Contacts& c
   std::vector<int> parent(count), arrivals(count, 0), points(count, 0);
   std::iota(parent.begin(), parent.end(), 0);
   const auto root = [&](int body) {
-    while (parent[static_cast<std::size_t>(body)] != body)
-      body = parent[static_cast<std::size_t>(body)] =
-          parent[static_cast<std::size_t>(parent[static_cast<std::size_t>(body)])];
+    while (parent[at(body)] != body) body = parent[at(body)] = parent[at(parent[at(body)])];
     return body;
   };
   world.schedule.overlapping_pairs([&](int a, int b) {
-    if (!world.yields(a) || !world.yields(b) || world.bodies[static_cast<std::size_t>(a)].sensor ||
-        world.bodies[static_cast<std::size_t>(b)].sensor)
+    if (!world.yields(a) || !world.yields(b) || world.bodies[at(a)].sensor || world.bodies[at(b)].sensor)
       return;
     PairContacts& pair = contacts.pair(a, b);
-    const RigidBody &first = world.bodies[static_cast<std::size_t>(pair.a)].state,
-                    &second = world.bodies[static_cast<std::size_t>(pair.b)].state;
+    const RigidBody &first = world.bodies[at(pair.a)].state, &second = world.bodies[at(pair.b)].state;
     const double gap = contacts.least_gap(world, pair, first.pose(), second.pose());
     const double way =
         dt * ((second.velocity - first.velocity).norm() + first.spin.norm() * world.model_of(pair.a).reach +
               second.spin.norm() * world.model_of(pair.b).reach);
     if (gap - way > contacts.margin()) return;
     const int low = std::min(root(a), root(b)), high = std::max(root(a), root(b));
-    parent[static_cast<std::size_t>(high)] = low;
+    parent[at(high)] = low;
     if (high != low) {
-      arrivals[static_cast<std::size_t>(low)] += arrivals[static_cast<std::size_t>(high)];
-      points[static_cast<std::size_t>(low)] += points[static_cast<std::size_t>(high)];
+      arrivals[at(low)] += arrivals[at(high)];
+      points[at(low)] += points[at(high)];
     }
     const int known = pair.rank();
     if (known == 0 || pair.gap > contacts.margin())
-      ++arrivals[static_cast<std::size_t>(low)];
+      ++arrivals[at(low)];
     else
-      points[static_cast<std::size_t>(low)] += known;
+      points[at(low)] += known;
   });
   std::vector<std::vector<int>> crowds;
   std::vector<int> crowd_of(count, -1);
   for (int body = 0; body < static_cast<int>(count); ++body) {
-    const auto first = static_cast<std::size_t>(root(body));
+    const auto first = at(root(body));
     if (event_work(arrivals[first], points[first]) <= most_work) continue;
     if (crowd_of[first] < 0) {
       crowd_of[first] = static_cast<int>(crowds.size());
       crowds.emplace_back();
     }
-    crowds[static_cast<std::size_t>(crowd_of[first])].push_back(body);
+    crowds[at(crowd_of[first])].push_back(body);
   }
   return crowds;
 }

@@ -51,7 +51,7 @@ class IslandFinder {
   // one body without pairs. Sleeping bodies that it reaches belong to it. So do members of crowds (crowd_of[body] >= 0), but
   // nobody is looked for from there.
   Island grow(const world::World& world, int body, const std::vector<int>& crowd_of);
-  bool is_in_island(int body) const { return stamp_[static_cast<std::size_t>(body)] >= first_; }
+  bool is_in_island(int body) const { return stamp_[at(body)] >= first_; }
 
  private:
   int place_of(const world::World& world, Island& island, int body);

@@ -15,7 +15,7 @@ double fastest(std::span<const RigidBody> bodies, std::span<const lcp::Contact> 
   double speed = 0;
   for (const lcp::Contact& c : contacts)
     for (const int body : {c.body_a, c.body_b})
-      speed = std::max(speed, bodies[static_cast<std::size_t>(body)].velocity_at(c.point).norm());
+      speed = std::max(speed, bodies[at(body)].velocity_at(c.point).norm());
   return speed;
 }
 
@@ -70,7 +70,7 @@ IslandResult IslandSolver::solve(std::span<RigidBody> bodies, std::span<const lc
   if (result.status != lcp::Status::solved) return {false, result.residual, steps, result.status};
   const std::vector<RigidBody> before(bodies.begin(), bodies.end());
   for (Eigen::Index i = 0; i < n; ++i)
-    if (result.z[i] > 0) lcp::apply_impulse(bodies, contacts[static_cast<std::size_t>(i)], result.z[i]);
+    if (result.z[i] > 0) lcp::apply_impulse(bodies, contacts[at(i)], result.z[i]);
   if (any_driven(bodies) && fastest(bodies, contacts) > kMostLeverage * fastest(before, contacts)) {
     std::copy(before.begin(), before.end(), bodies.begin());
     return {false, result.residual, steps, lcp::Status::limit};

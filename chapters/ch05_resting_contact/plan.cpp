@@ -33,6 +33,22 @@ constexpr int kMostRounds = 8;          // in which the paths' ends are looked a
 constexpr double kNearlyClosed = 1e-2;  // else a shorter plan is made
 constexpr double kClosed = 1e-6;        // of the margin: how exactly contacts close at the plan's end
 
+// Whether a pair that bounces comes in fast: it is in the margin, but there is room left.
+bool comes_in_fast(const IslandPair& pair, std::span<const Member> members, double rest_speed,
+                   double margin) {
+  if (pair.contacts->points.empty()) return false;
+  const RigidBody &a = members[at(pair.a)].state, &b = members[at(pair.b)].state;
+  const Pose pose_a = a.pose(), pose_b = b.pose();
+  double nearest = std::numeric_limits<double>::infinity(), fastest = 0;
+  for (const ContactPoint& point : pair.contacts->points) {
+    nearest = std::min(nearest, point.gap_at(pose_a, pose_b));
+    const Vec3 middle = point.middle(pose_a, pose_b);
+    fastest =
+        std::min(fastest, point.normal_at(pose_a, pose_b).dot(b.velocity_at(middle) - a.velocity_at(middle)));
+  }
+  return fastest < -rest_speed && nearest > kRoom * margin;
+}
+
 }  // namespace
 
 double wanted_gap(double gap, double margin) {
@@ -60,7 +76,7 @@ PlanMaker::Result PlanMaker::make(const world::World& world, const Island& islan
   rows_.clear();
   courses_.start(world, island.members, now, length);
   for (const IslandPair& pair : island.pairs) {
-    if (comes_in_fast(pair)) continue;
+    if (comes_in_fast(pair, courses_.members, options_.rest_speed, contacts_.margin())) continue;
     const int candidate = courses_.candidate_of(pair.contacts, pair.a, pair.b);
     courses_.candidates[at(candidate)].in_contact = !pair.contacts->points.empty();
     for (const ContactPoint& point : pair.contacts->points) add_row(world, candidate, point, false);
@@ -94,21 +110,6 @@ PlanMaker::Result PlanMaker::make(const world::World& world, const Island& islan
   return Result::unproved;
 }
 
-// Whether a pair that bounces comes in fast: it is in the margin, but there is room left.
-bool PlanMaker::comes_in_fast(const IslandPair& pair) const {
-  if (pair.contacts->points.empty()) return false;
-  const RigidBody &a = courses_.members[at(pair.a)].state, &b = courses_.members[at(pair.b)].state;
-  const Pose pose_a = a.pose(), pose_b = b.pose();
-  double nearest = std::numeric_limits<double>::infinity(), fastest = 0;
-  for (const ContactPoint& point : pair.contacts->points) {
-    nearest = std::min(nearest, point.gap_at(pose_a, pose_b));
-    const Vec3 middle = point.middle(pose_a, pose_b);
-    fastest =
-        std::min(fastest, point.normal_at(pose_a, pose_b).dot(b.velocity_at(middle) - a.velocity_at(middle)));
-  }
-  return fastest < -options_.rest_speed && nearest > kRoom * contacts_.margin();
-}
-
 void PlanMaker::add_row(const world::World& world, int candidate, const ContactPoint& point, bool arrives) {
   const Candidate& pair = courses_.candidates[at(candidate)];
   const Member &a = courses_.members[at(pair.a)], &b = courses_.members[at(pair.b)];
@@ -140,27 +141,16 @@ bool PlanMaker::solve(std::vector<RigidBody>& bodies) {
   return result.solved;
 }
 
-// The members with their mean velocities of free flight.
-std::vector<RigidBody> PlanMaker::drifting() const {
-  std::vector<RigidBody> bodies;
-  for (std::size_t i = 0; i < courses_.members.size(); ++i) {
-    bodies.push_back(courses_.members[i].state);
-    bodies.back().velocity = courses_.drift[i].linear;
-    bodies.back().spin = courses_.drift[i].angular;
-  }
-  return bodies;
-}
-
 // Steps 1 and 2, with the rows' right-hand sides as they are.
 bool PlanMaker::solve() {
   const double length = courses_.length();
-  fast_ = drifting();
+  fast_ = courses_.with(courses_.drift);
   contact_list_.clear();
   allowed_.clear();
   impulses_.clear();
   for (const Row& row : rows_) {
     contact_list_.push_back(row.contact);
-    allowed_.push_back(allowed(row));
+    allowed_.push_back(row.allowed(length));
     impulses_.push_back(row.impulse);
   }
   if (!solve(fast_)) return false;
@@ -225,7 +215,7 @@ PlanMaker::Result PlanMaker::close_ends() {
 // angle of t on a path borrow t^2 / 4 of theirs.
 bool PlanMaker::gains() const {
   double gain = 0, size = 0;
-  const std::vector<RigidBody> free = drifting();
+  const std::vector<RigidBody> free = courses_.with(courses_.drift);
   for (std::size_t i = 0; i < free.size(); ++i) {
     if (!courses_.members[i].dynamic) continue;
     const double before = free[i].kinetic_energy(), slow = contacts_.margin() / courses_.length();
@@ -279,7 +269,7 @@ std::vector<RigidBody> PlanMaker::without_arrivals(std::vector<double>& early) {
   for (const Row& row : rows_) early.push_back(row.impulse);
   if (std::none_of(rows_.begin(), rows_.end(), [](const Row& row) { return row.arrives && row.impulse > 0; }))
     return fast_;
-  std::vector<RigidBody> bodies = drifting();
+  std::vector<RigidBody> bodies = courses_.with(courses_.drift);
   std::vector<std::size_t> lasting;
   contact_list_.clear();
   allowed_.clear();
@@ -289,7 +279,7 @@ std::vector<RigidBody> PlanMaker::without_arrivals(std::vector<double>& early) {
     if (rows_[r].arrives) continue;
     lasting.push_back(r);
     contact_list_.push_back(rows_[r].contact);
-    allowed_.push_back(allowed(rows_[r]));
+    allowed_.push_back(rows_[r].allowed(courses_.length()));
     impulses_.push_back(rows_[r].impulse);
   }
   if (lasting.empty() || !solve(bodies)) return bodies;
@@ -304,7 +294,7 @@ Planned PlanMaker::take() {
   Planned result;
   std::vector<double> early;
   std::vector<char> goes(courses_.members.size(), 0);
-  const std::vector<RigidBody> free = drifting(), ends = without_arrivals(early);
+  const std::vector<RigidBody> free = courses_.with(courses_.drift), ends = without_arrivals(early);
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     const Row& row = rows_[r];
     if (row.impulse > 0 || early[r] > 0 || row.correction > 0 || row.end_gap < contacts_.margin())

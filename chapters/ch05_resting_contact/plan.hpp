@@ -81,18 +81,14 @@ class PlanMaker {
     double most_push = std::numeric_limits<double>::
         infinity();  // m/s: velocities are made to part by no more, since no more is taken back at the end
     bool arrives = false;  // not in contact now: what the row does, it does at the plan's end
+
+    double allowed(double length) const { return std::max((gap + bend - keep) / length, -most_push); }  // m/s
   };
-  static std::size_t at(int index) { return static_cast<std::size_t>(index); }
   void add_row(const world::World& world, int candidate, const ContactPoint& point, bool arrives);
-  double allowed(const Row& row) const {  // m/s, for velocities
-    return std::max((row.gap + row.bend - row.keep) / courses_.length(), -row.most_push);
-  }
-  bool comes_in_fast(const IslandPair& pair) const;
   bool solve();
   bool solve(std::vector<RigidBody>& bodies);
   Result close_ends();
   bool gains() const;
-  std::vector<RigidBody> drifting() const;
   std::vector<RigidBody> without_arrivals(std::vector<double>& early);
   void remember() const;
   bool add_rows_of(const world::World& world, int candidate);

@@ -12,8 +12,8 @@ void RestRecords::add(const world::ImpactRecord& record, std::uint64_t key) {
   const auto a = static_cast<std::uint64_t>(record.contact.body_a),
              b = static_cast<std::uint64_t>(record.contact.body_b);
   int& last = last_of_.try_emplace(a << 32 | b, -1).first->second;
-  for (int i = last; i >= 0; i = records_[static_cast<std::size_t>(i)].next) {
-    Told& told = records_[static_cast<std::size_t>(i)];
+  for (int i = last; i >= 0; i = records_[at(i)].next) {
+    Told& told = records_[at(i)];
     if (told.key != key || (told.record.contact.normal - record.contact.normal).norm() > kSameNormal)
       continue;
     told.record.impulse.impulse += record.impulse.impulse;

@@ -56,7 +56,6 @@ Resting::Resting(const Scene& scene, world::World& world, double dt, const RestO
       options_(options),
       frame_(dt),
       dt_(dt),
-      crowd_of_(world.bodies.size(), -1),
       meetings_(world.bodies.size(), 0),
       try_length_(world.bodies.size(), std::numeric_limits<double>::infinity()),
       energy_(world.bodies.size(), 0) {
@@ -90,12 +89,7 @@ std::vector<int> Resting::begin(world::World& world, double dt, world::StepRepor
   dt_ = dt;
   plans_.clear();
   free_plans_.clear();
-  crowds_.clear();
-  std::fill(crowd_of_.begin(), crowd_of_.end(), -1);
-  for (std::vector<int>& bodies : find_crowds(world, contacts_, dt, options_.most_work)) {
-    for (const int body : bodies) crowd_of_[at(body)] = static_cast<int>(crowds_.size());
-    crowds_.push_back({std::move(bodies)});
-  }
+  crowds_.begin(world.bodies.size(), find_crowds(world, contacts_, dt, options_.most_work));
   Instant instant{world, 0, report, listeners};
   for (int body = 0; body < static_cast<int>(world.bodies.size()); ++body)
     if (world.yields(body) && !world.bodies[at(body)].asleep) instant.bodies.push_back(body);
@@ -125,25 +119,25 @@ std::vector<int> Resting::meet(world::World& world, int a, int b, double now, wo
     ++meetings_[at(body)];
     if (world.yields(body)) instant.bodies.push_back(body);
   }
-  const auto is_crowded = [&](int body) { return crowd_of_[at(body)] >= 0; };
-  if (std::any_of(instant.bodies.begin(), instant.bodies.end(), is_crowded)) make_crowd(instant.bodies);
+  const auto is_crowded = [&](int body) { return crowds_.of(body) != nullptr; };
+  if (std::any_of(instant.bodies.begin(), instant.bodies.end(), is_crowded)) crowds_.unite(instant.bodies);
   return go_on(std::move(instant));
 }
 
 // These bodies, and all that they are in contact with, directly or over others.
 std::vector<int> Resting::go_on(Instant instant) {
   islands_.begin(instant.now);
-  for (Crowd& crowd : crowds_) crowd.done = false;
+  crowds_.begin_instant();
   for (std::size_t i = 0; i < instant.bodies.size(); ++i) {  // the list grows
     const int body = instant.bodies[i];
-    if (crowd_of_[at(body)] < 0) {
+    if (crowds_.of(body) == nullptr) {
       if (islands_.is_in_island(body)) continue;
-      Island island = islands_.grow(instant.world, body, crowd_of_);
+      Island island = islands_.grow(instant.world, body, crowds_.crowd_of());
       join_crowd(island, event_work(0, island.rank()) > options_.most_work);
-      if (crowd_of_[at(body)] < 0) go_on(instant, island);
+      if (crowds_.of(body) == nullptr) go_on(instant, island);
     }
-    const int crowd = crowd_of_[at(body)];
-    if (crowd >= 0 && !crowds_[at(crowd)].done) go_on(instant, crowds_[at(crowd)]);
+    CrowdList::Crowd* crowd = crowds_.of(body);
+    if (crowd != nullptr && !crowd->done) go_on(instant, *crowd);
   }
   if (instant.now > 0) report_.correction_energy += std::max(0.0, instant.gained);
   if (instant.now >= dt_) instant.changed.clear();  // the frame is over
@@ -161,17 +155,6 @@ void Resting::go_on(Instant& instant, Island& island) {
   set_courses(instant, island.members, before, work);
   const bool goes = instant.now >= dt_ || island.pairs.empty() || (solved && plan(instant, island));
   if (!goes) join_crowd(island, true);
-}
-
-// A crowd has no impacts of its own, only plans.
-void Resting::go_on(Instant& instant, Crowd& crowd) {
-  crowd.done = true;
-  std::vector<Member> members;
-  for (const int body : crowd.bodies) members.push_back({body, {}, true});
-  const double work = instant.report.kinematic_work, before = stand(instant, members);
-  wake(instant.world, members, instant.report);
-  set_courses(instant, members, before, work);
-  if (instant.now < dt_) plan(instant, crowd, members);
 }
 
 // All stand where they are now; the plans that moved them end. Returns the energy (J) with which they began their courses.
@@ -206,30 +189,10 @@ void Resting::join_crowd(const Island& island, bool must) {
   for (const Member& member : island.members) {
     if (!member.dynamic) continue;
     bodies.push_back(member.number);
-    must = must || crowd_of_[at(member.number)] >= 0 || meetings_[at(member.number)] > options_.most_meetings;
+    must =
+        must || crowds_.of(member.number) != nullptr || meetings_[at(member.number)] > options_.most_meetings;
   }
-  if (must) make_crowd(bodies);
-}
-
-// One crowd of these bodies, and of all that are in a crowd with one of them.
-void Resting::make_crowd(std::span<const int> members) {
-  int crowd = -1;
-  for (const int body : members) crowd = std::max(crowd, crowd_of_[at(body)]);
-  if (crowd < 0) {
-    crowd = static_cast<int>(crowds_.size());
-    crowds_.emplace_back();
-  }
-  std::vector<int>& bodies = crowds_[at(crowd)].bodies;
-  for (const int body : members) {
-    const int other = crowd_of_[at(body)];
-    if (other == crowd) continue;
-    std::vector<int> joining = {body};
-    if (other >= 0) joining = std::exchange(crowds_[at(other)].bodies, {});
-    for (const int joins : joining) crowd_of_[at(joins)] = crowd;
-    bodies.insert(bodies.end(), joining.begin(), joining.end());
-  }
-  std::sort(bodies.begin(), bodies.end());
-  crowds_[at(crowd)].done = false;
+  if (must) crowds_.unite(bodies);
 }
 
 // Its bodies stand where they are now, with the velocities that they have; what its rows did until now is told.
@@ -337,8 +300,16 @@ bool Resting::plan(Instant& instant, Island& island) {
   return true;
 }
 
-// Two plans in a frame; and more, if it is so small that shorter plans cost less than paths that are shortened.
-void Resting::plan(Instant& instant, Crowd& crowd, std::span<const Member> members) {
+// A crowd has no impacts of its own, only plans: two in a frame; and more, if it is so small that shorter plans cost less than
+// paths that are shortened.
+void Resting::go_on(Instant& instant, CrowdList::Crowd& crowd) {
+  crowd.done = true;
+  std::vector<Member> members;
+  for (const int body : crowd.bodies) members.push_back({body, {}, true});
+  const double work = instant.report.kinematic_work, before = stand(instant, members);
+  wake(instant.world, members, instant.report);
+  set_courses(instant, members, before, work);
+  if (instant.now >= dt_) return;
   const double half = instant.now < (0.5 - kShortest) * dt_ ? 0.5 * dt_ : dt_, left = half - instant.now;
   CrowdOptions options;
   options.rest_speed = envelope() / dt_;

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "ch05_resting_contact/crowd.hpp"
+#include "ch05_resting_contact/crowd_list.hpp"
 #include "ch05_resting_contact/envelope.hpp"
 #include "ch05_resting_contact/impact_law.hpp"
 #include "ch05_resting_contact/rest_records.hpp"
@@ -58,11 +59,6 @@ class Resting : public world::Planner {
     double start = 0, end = 0;
     Planned what;
   };
-  struct Crowd {
-    std::vector<int> bodies;
-    double length = std::numeric_limits<double>::infinity();  // s, of its next plan at most
-    bool done = false;                                        // in this instant
-  };
   // An instant, and what is to be told of it.
   struct Instant {
     world::World& world;
@@ -73,18 +69,15 @@ class Resting : public world::Planner {
     std::vector<int> changed = {};  // that have got another course
     double gained = 0;  // J, by all of them since they got their last, beyond what kinematic bodies did
   };
-  static std::size_t at(int index) { return static_cast<std::size_t>(index); }
   std::vector<int> go_on(Instant instant);
   void go_on(Instant& instant, Island& island);
-  void go_on(Instant& instant, Crowd& crowd);
+  void go_on(Instant& instant, CrowdList::Crowd& crowd);
   double stand(Instant& instant, std::span<Member> members);
   void set_courses(Instant& instant, std::span<const Member> members, double before, double work);
   void join_crowd(const Island& island, bool must);
-  void make_crowd(std::span<const int> members);
   void end_plan(Instant& instant, int number);
   bool resolve(Instant& instant, Island& island);
   bool plan(Instant& instant, Island& island);
-  void plan(Instant& instant, Crowd& crowd, std::span<const Member> members);
   void start(Instant& instant, Planned&& planned, double end);
 
   Contacts contacts_;
@@ -96,8 +89,7 @@ class Resting : public world::Planner {
   double frame_, dt_;  // s, of a frame, and of the part of it at hand
   std::vector<Running> plans_;
   std::vector<int> free_plans_;
-  std::vector<Crowd> crowds_;       // of this frame
-  std::vector<int> crowd_of_;       // of each body, or -1
+  CrowdList crowds_;
   std::vector<int> meetings_;       // of each body, in this frame
   std::vector<double> try_length_;  // s, of each body's next plan at most
   std::vector<double> energy_;      // J, of each body when it got its course, in this frame

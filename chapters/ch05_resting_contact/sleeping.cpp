@@ -4,7 +4,7 @@ namespace fc::resting {
 namespace {
 
 world::Body& body_of(world::World& world, const Member& member) {
-  return world.bodies[static_cast<std::size_t>(member.number)];
+  return world.bodies[at(member.number)];
 }
 
 // Whether the island may sleep; counts for how long its bodies have been slow.
@@ -17,7 +17,7 @@ bool rests(world::World& world, const Island& island, double dt) {
       all = all && !world.carries(member.number);
       continue;
     }
-    const double reach = world.shapes[static_cast<std::size_t>(body.shape)].reach;
+    const double reach = world.shapes[at(body.shape)].reach;
     const double speed = body.state.velocity.norm() + reach * body.state.spin.norm();
     body.still = speed <= world.effects.sleep->speed ? body.still + dt : 0;
     all = all && body.still >= world.effects.sleep->after;
@@ -41,8 +41,7 @@ void fall_asleep(world::World& world, IslandFinder& islands, double dt, world::S
   const std::vector<int> no_crowds(world.bodies.size(), -1);
   islands.begin(0);
   for (int i = 0; i < static_cast<int>(world.bodies.size()); ++i) {
-    if (!world.yields(i) || world.bodies[static_cast<std::size_t>(i)].asleep || islands.is_in_island(i))
-      continue;
+    if (!world.yields(i) || world.bodies[at(i)].asleep || islands.is_in_island(i)) continue;
     const Island island = islands.grow(world, i, no_crowds);
     if (!rests(world, island, dt)) continue;
     for (const Member& member : island.members) {

@@ -69,7 +69,6 @@ class Sweeps {
     Vec3 place, move, root;  // m; 1/kg along each axis that is free, and its root
     Mat3 turn, turn_root;    // 1/(kg m^2), and L
   };
-  static std::size_t at(int index) { return static_cast<std::size_t>(index); }
   const Row& of_row(int row) const { return rows_[at(row)]; }
   template <bool kVelocities, bool kPaths>
   int run(int sweeps);
