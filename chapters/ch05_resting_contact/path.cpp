@@ -8,7 +8,7 @@ namespace fc::resting {
 namespace {
 
 // Intervals are halved down to this part of the whole.
-constexpr double kLeastStep = 1.0 / 64;
+constexpr double kLeastStep = 1.0 / 64, kRoughStep = 0.25;  // the second if advancement follows
 
 // A plane between two convex bodies at one time (s), and the gap along it (m, certified).
 struct PlaneAt {
@@ -115,7 +115,7 @@ std::optional<PathVerdict> by_planes(const world::World& world, const Contacts& 
       continue;
     }
     step *= 0.5;
-    if (step < kLeastStep * dt) return PathVerdict{false, here.time};
+    if (step < (options.by_planes ? kLeastStep : kRoughStep) * dt) return PathVerdict{false, here.time};
   }
   return PathVerdict{true, dt, slack};
 }
