@@ -10,6 +10,8 @@ namespace {
 
 using namespace fc;
 
+constexpr double kWide = 10;  // g dt^2: from here on an envelope is called wide
+
 std::vector<Effect> explain(const Scene& scene) {
   std::vector<Effect> list = world::explain(scene);
   if (!scene.envelope) return list;
@@ -20,6 +22,16 @@ std::vector<Effect> explain(const Scene& scene) {
                   fmt::format("bodies nearer than {:.3g} m are in contact, and rest {:.3g} m apart", margin,
                               0.5 * margin),
                   0});
+  const double fall =
+      world.effects.gravity ? world.effects.gravity->norm() * scene.step->dt * scene.step->dt : 0;
+  if (fall > 0 && margin > kWide * fall)
+    list.push_back(
+        {"wide envelope", why,
+         fmt::format(
+             "{:.3g} times what gravity and a frame's length ask for (g dt^2): little bounces; narrow it, "
+             "or take longer frames",
+             margin / fall),
+         0});
   list.push_back({"plans", why,
                   "an island goes on together: an LCP of gaps at the plan's end, another puts gaps right",
                   2});
@@ -60,6 +72,7 @@ int run(const Scene& scene, const RunContext& context, Summary& summary) {
       }};
   const int code = world::run_scene(scene, context, summary, step, true, prepare, more);
   summary.add("envelope", resting->envelope(), "m");
+  summary.add("nothing bounces below (envelope / dt)", resting->envelope() / scene.step->dt, "m/s");
   summary.add("resting contacts with an impulse", std::int64_t{all.resting});
   summary.add("largest island", std::int64_t{all.largest_island}, "contact points");
   summary.add("largest correction of a position in a plan", all.correction, "m");
@@ -87,9 +100,9 @@ int main(int argc, char** argv) {
   chapter.purpose =
       "Moves rigid bodies that collide, rest, slide and stack, without friction. With the key `envelope`, "
       "bodies nearer than that are in contact and go by plans: proved paths that use no gap up, with impulses that act "
-      "all along. Without it, everything is as in chapter 4. From 100 contact points on an island is solved more "
-      "coarsely, from 400 on to a residual that is told, and where its paths cannot be proved they are shortened, which "
-      "is told as `lost_impulse`.";
+      "all along. Without it, everything is as in chapter 4. Bodies that meet in one frame so often that nobody could go "
+      "from one event to the next are a crowd: its contacts are solved to a residual that is told, two plans a frame, and "
+      "where paths cannot be proved they are shortened, which is told as `lost_impulse`.";
   chapter.example = "build/bin/ch05_resting_contact chapters/ch05_resting_contact/scenes/stack.yaml";
   chapter.explain = explain;
   chapter.run = run;
