@@ -100,6 +100,7 @@ SceneFailure failure(const char* what, int rows) {
 struct Touching {
   std::vector<lcp::Contact> contacts;  // bodies by their places among the members
   VecX restitution;
+  std::vector<int> lasting;  // those at which a plan has pushed up to now
   double fastest =
       0;  // m/s: how fast the fastest comes in (< 0) of those at which no plan has pushed up to now
 };
@@ -114,7 +115,10 @@ Touching touching(const World& world, const Island& island, const std::vector<Ri
       if (contact.gap > margin) continue;
       result.contacts.push_back(contact);
       e.push_back(world.restitution_of(pair.contacts->a, pair.contacts->b));
-      if (!point.lasts) result.fastest = std::min(result.fastest, lcp::contact_velocity(bodies, contact));
+      if (point.lasts)
+        result.lasting.push_back(static_cast<int>(e.size()) - 1);
+      else
+        result.fastest = std::min(result.fastest, lcp::contact_velocity(bodies, contact));
     }
   result.restitution = Eigen::Map<const VecX>(e.data(), std::ssize(e));
   return result;
@@ -357,14 +361,19 @@ void ClearResting::end_plan_of(World& world, int body, double now, std::vector<i
   plan.runs = false;
 }
 
-// The instant's law (Poisson): a compression stops all that closes; if something came in fast, an expansion gives back the
-// part e of each impulse, but never more energy than the compression took.
+// The instant's law. First what lasts stops: that it closes is the other half of the plan's force. Then (Poisson) a compression
+// stops all that closes; if something came in fast, an expansion gives back the part e of each impulse, but never more energy
+// than the compression took.
 void ClearResting::stop_what_closes(const World& world, Island& island, double now) {
   const std::vector<RigidBody> before = states_of(island.members);
-  const auto [contacts, restitution, fastest] = touching(world, island, before, envelope());
+  const auto [contacts, restitution, lasting, fastest] = touching(world, island, before, envelope());
   const bool impact = fastest < -envelope() / dt_;
   std::vector<RigidBody> bodies = before;
   VecX z, total = VecX::Zero(contacts.size());
+  std::vector<lcp::Contact> last;
+  for (const int i : lasting) last.push_back(contacts[i]);
+  if (!push(bodies, last, VecX::Zero(last.size()), z)) throw failure("cannot be stopped", island.points());
+  total(lasting) = z;
   for (int round = 1; round <= kMostBounces && anything_closes(bodies, contacts); ++round) {
     if (!push(bodies, contacts, VecX::Zero(contacts.size()), z))
       throw failure("cannot be stopped", island.points());

@@ -11,6 +11,9 @@ namespace {
 // A path is clear if its gap stays above this part of the margin, or half of what it was.
 constexpr double kFloor = 1.0 / 64;
 
+// Of the bodies' kinetic energy, by which a plan may add to what they have.
+constexpr double kMostGained = 0.01;
+
 // Pairs of nodes that are looked at in one proof.
 constexpr std::int64_t kMostPairs = 50'000;
 
@@ -199,7 +202,7 @@ void CrowdPlanner::find_paths(const world::World& world) {
     if (clear || round == options_.rounds) return;
     for (int i = 0; i < static_cast<int>(courses_.candidates.size()); ++i)
       if (!courses_.candidates[at(i)].clear) look_again(world, i);
-    swept_ += sweeps_.run_paths(options_.path_sweeps);
+    swept_ += sweeps_.run(options_.path_sweeps);
   }
 }
 
@@ -327,6 +330,7 @@ Planned CrowdPlanner::take(const world::World& world) {
     told.contact.body_b = pair.contacts->b;
     result.rows.push_back(told);
   }
+  double gained = -result.kinematic_work, size = 0;
   for (std::size_t i = 0; i < swept.size(); ++i) {
     const Member& member = courses_.members[i];
     if (!member.dynamic) continue;
@@ -338,7 +342,13 @@ Planned CrowdPlanner::take(const world::World& world) {
     result.courses.push_back(course_of(member, {track.velocity, track.spin}, free, courses_.length()));
     result.arrivals.push_back(
         {share * bounced[i].velocity - free.linear, share * bounced[i].spin - free.angular});
+    const double before = member.state.kinetic_energy(), slow = contacts_.margin() / courses_.length();
+    gained += share * share * bounced[i].kinetic_energy() - before;
+    if (world.effects.gravity)
+      gained -= member.state.mass * world.effects.gravity->dot(track.end.position - track.start.position);
+    size += before + 0.5 * member.state.mass * slow * slow;
   }
+  gains_ = gained > kMostGained * size;
   return result;
 }
 

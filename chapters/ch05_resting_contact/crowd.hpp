@@ -32,6 +32,7 @@ class CrowdPlanner {
   // Of the last make():
   double lost_impulse() const { return lost_; }  // N s, that shortening took
   int shortened() const { return shortened_; }   // bodies
+  bool gains() const { return gains_; }  // whether it adds more energy than is small beside what there is
   // Kinematic bodies (by their numbers in the world) that went into what could not give way.
   const std::vector<int>& blocked() const { return blocked_; }
   double residual() const { return sweeps_.residual(); }
@@ -75,6 +76,7 @@ class CrowdPlanner {
   std::vector<double> back_;               // N s, of each row
   std::vector<int> blocked_;
   double lost_ = 0;
+  bool gains_ = false;
   int shortened_ = 0, swept_ = 0;
 };
 

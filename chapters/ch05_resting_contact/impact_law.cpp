@@ -61,6 +61,7 @@ struct Touching {
   std::vector<double> restitution;
   std::vector<double> guesses;  // N s
   std::vector<char> is_fast;    // it comes in fast
+  std::vector<char> lasts;      // a plan has pushed it up to now
   std::vector<std::uint64_t> keys;
 };
 
@@ -85,10 +86,50 @@ Touching touching(const world::World& world, const Island& island, std::span<con
       result.restitution.push_back(bounces ? world.restitution_of(number_a, number_b) : 0);
       result.guesses.push_back(point.force * options.guess);
       result.is_fast.push_back(fast);
+      result.lasts.push_back(point.lasts);
       result.keys.push_back(point.key);
     }
   }
   return result;
+}
+
+// Some contacts of an instant; what their impulses do is told in its result.
+bool compress(std::vector<RigidBody>& bodies, const std::vector<lcp::Contact>& contacts,
+              std::vector<double>& impulses, IslandSolver& solver, const InstantOptions& options,
+              InstantResult& result) {
+  const std::vector<double> allowed(contacts.size(), 0.0);
+  const IslandResult solved = solver.solve(bodies, contacts, allowed, impulses, options.solver);
+  result.residual = std::max(result.residual, solved.residual);
+  result.steps += solved.steps;
+  result.status = solved.status;
+  result.rows += static_cast<int>(contacts.size());
+  ++result.solves;
+  return solved.solved;
+}
+
+std::vector<double> speeds_of(const std::vector<RigidBody>& bodies,
+                              const std::vector<lcp::Contact>& contacts) {
+  std::vector<double> speeds;
+  for (const lcp::Contact& contact : contacts) speeds.push_back(lcp::contact_velocity(bodies, contact));
+  return speeds;
+}
+
+// Before an impact: the other half of what plans have pushed up to now. It is no part of the impact, and does not bounce.
+bool stop_what_lasts(std::vector<RigidBody>& bodies, const Touching& island, std::vector<double>& total,
+                     IslandSolver& solver, const InstantOptions& options, InstantResult& result) {
+  std::vector<std::size_t> which;
+  std::vector<lcp::Contact> contacts;
+  std::vector<double> impulses;
+  for (std::size_t i = 0; i < island.contacts.size(); ++i) {
+    if (!island.lasts[i]) continue;
+    which.push_back(i);
+    contacts.push_back(island.contacts[i]);
+    impulses.push_back(island.guesses[i]);
+  }
+  if (contacts.empty()) return true;
+  if (!compress(bodies, contacts, impulses, solver, options, result)) return false;
+  for (std::size_t k = 0; k < which.size(); ++k) total[which[k]] += impulses[k];
+  return true;
 }
 
 // Both stages, again as long as something closes; N s of each contact, in all. Nothing if a stage could not be solved.
@@ -96,20 +137,18 @@ std::optional<std::vector<double>> stop_what_closes(std::vector<RigidBody>& bodi
                                                     double rounding, IslandSolver& solver,
                                                     const InstantOptions& options, InstantResult& result) {
   const std::vector<lcp::Contact>& contacts = island.contacts;
-  const std::vector<double> allowed(contacts.size(), 0.0);
   std::vector<double> impulses = island.guesses, speeds = island.speeds, total(contacts.size(), 0.0);
+  if (result.impact) {
+    if (!stop_what_lasts(bodies, island, total, solver, options, result)) return {};
+    std::fill(impulses.begin(), impulses.end(), 0.0);
+    speeds = speeds_of(bodies, contacts);
+  }
   for (int round = 0; round <= kMostBounces; ++round) {
-    const IslandResult solved = solver.solve(bodies, contacts, allowed, impulses, options.solver);
-    result.residual = std::max(result.residual, solved.residual);
-    result.steps += solved.steps;
-    result.status = solved.status;
-    result.rows += static_cast<int>(contacts.size());
-    ++result.solves;
-    if (!solved.solved) return {};
+    if (!compress(bodies, contacts, impulses, solver, options, result)) return {};
     for (std::size_t i = 0; i < contacts.size(); ++i) total[i] += impulses[i];
     if (!result.impact || round == kMostBounces) break;
     if (!give_back(bodies, contacts, island.restitution, impulses, total, speeds)) break;
-    for (std::size_t i = 0; i < contacts.size(); ++i) speeds[i] = lcp::contact_velocity(bodies, contacts[i]);
+    speeds = speeds_of(bodies, contacts);
     if (*std::min_element(speeds.begin(), speeds.end()) >= -rounding) break;
     std::fill(impulses.begin(), impulses.end(), 0.0);
   }

@@ -26,7 +26,8 @@ struct InstantResult {
   double residual = 0, kinematic_work = 0, energy_gain = 0;
 };
 
-// No contact of the island approaches afterwards. In two stages (Poisson's hypothesis, with a cap):
+// No contact of the island approaches afterwards. First what lasts: that contacts close at which a plan has pushed is the other
+// half of its force, and no impact. They are stopped, without bounce. Then two stages (Poisson's hypothesis, with a cap):
 //   1. compression   z >= 0 stops whoever approaches: J v1 >= 0, z'J v1 = 0;
 //   2. expansion     each contact gives back what its restitution says, k e_i z_i, with the largest k <= 1 for which this takes
 //                    no more energy than the compression gave: k^2 r'A r <= z'A z, r_i = e_i z_i.

@@ -28,6 +28,7 @@ constexpr std::int64_t kMostPairs = 1000, kMostPairsOfMeshes = 50'000;
 // Of the bodies' kinetic energy, by which pushes may add to it until the plan's end.
 constexpr double kMostBorrowed = 0.002;
 
+constexpr int kHalvings = 16;           // of a plan's time, to find when a point arrives
 constexpr int kMostProofs = 4;          // rounds in which unproved pairs become rows
 constexpr int kMostRounds = 8;          // in which the paths' ends are looked at again
 constexpr double kNearlyClosed = 1e-2;  // else a shorter plan is made
@@ -80,6 +81,8 @@ PlanMaker::Result PlanMaker::make(const world::World& world, const Island& islan
     const int candidate = courses_.candidate_of(pair.contacts, pair.a, pair.b);
     courses_.candidates[at(candidate)].in_contact = !pair.contacts->points.empty();
     for (const ContactPoint& point : pair.contacts->points) add_row(world, candidate, point, false);
+    std::erase_if(rows_,
+                  [](const Row& row) { return row.arrives; });  // proofs find out who does, and how fast
   }
   const auto options_of = [&](const Candidate& pair) {
     if (!pair.in_contact) return PathOptions{.need = kStop * contacts_.margin()};
@@ -87,7 +90,7 @@ PlanMaker::Result PlanMaker::make(const world::World& world, const Island& islan
     return PathOptions{.need = kFloor * contacts_.margin(), .most_pairs = most};
   };
   const auto acts_on_air = [&](const Row& row) {  // an impulse across more than the margin
-    return row.impulse > 0 && row.arrives && row.end_gap > contacts_.margin();
+    return row.impulse > 0 && row.end_gap > contacts_.margin();
   };
   for (int round = 0; round < kMostProofs; ++round) {
     if (const Result ends = close_ends(); ends != Result::proved) return ends;
@@ -212,21 +215,42 @@ PlanMaker::Result PlanMaker::close_ends() {
 // ANCHOR_END: close_ends
 
 // Whether the pushes add more kinetic energy than a plan may borrow until its end takes it back. Bodies that turn a plane by an
-// angle of t on a path borrow t^2 / 4 of theirs.
+// angle of t on a path borrow t^2 / 4 of theirs. And whether those that turn freely would gain at the end, where their spins
+// change as if nobody had pushed them.
 bool PlanMaker::gains() const {
-  double gain = 0, size = 0;
-  const std::vector<RigidBody> free = courses_.with(courses_.drift);
-  for (std::size_t i = 0; i < free.size(); ++i) {
+  double gain = 0, size = 0, end_gain = 0;
+  for (std::size_t i = 0; i < courses_.members.size(); ++i) {
     if (!courses_.members[i].dynamic) continue;
-    const double before = free[i].kinetic_energy(), slow = contacts_.margin() / courses_.length();
-    gain += fast_[i].kinetic_energy() - before;
-    size += before + 0.5 * free[i].mass * slow * slow;
+    RigidBody free = courses_.members[i].state, fast = fast_[i];
+    free.velocity = courses_.drift[i].linear;
+    free.spin = courses_.drift[i].angular;
+    const double before = free.kinetic_energy(), slow = contacts_.margin() / courses_.length();
+    gain += fast.kinetic_energy() - before;
+    size += before + 0.5 * free.mass * slow * slow;
+    if (courses_.last[i].angular.isZero(0)) continue;
+    free.spin = courses_.members[i].state.spin;
+    fast.spin += courses_.last[i].angular;
+    fast.orientation = Quat(courses_.tracks[i].end.rotation);
+    end_gain += fast.kinetic_energy() - free.kinetic_energy();
   }
-  return gain > kMostBorrowed * size;
+  return std::max(gain, end_gain) > kMostBorrowed * size;
 }
 
-// The points that an unproved pair has at the end of its path become rows; whether there are new ones. A pair that was not
-// in contact and comes in fast there is an event instead.
+// When (s from the start) a point of a pair has come down to the rest gap, if its bodies go as on these paths.
+double PlanMaker::arrival(const Row& row) const {
+  const Track &a = courses_.tracks[at(row.contact.body_a)], &b = courses_.tracks[at(row.contact.body_b)];
+  double early = 0, late = courses_.length();
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (early + late);
+    const bool there =
+        row.point.gap_at(a.motion.pose_at(middle), b.motion.pose_at(middle)) < 0.5 * contacts_.margin();
+    (there ? late : early) = middle;
+  }
+  return late;
+}
+
+// The points that an unproved pair has at the end of its path become rows; whether there are new ones. One that comes in fast
+// there is an event instead.
 bool PlanMaker::add_rows_of(const world::World& world, int candidate) {
   const Candidate pair = courses_.candidates[at(candidate)];
   const Track &a = courses_.tracks[at(pair.a)], &b = courses_.tracks[at(pair.b)];
@@ -239,13 +263,15 @@ bool PlanMaker::add_rows_of(const world::World& world, int candidate) {
     if (known) continue;
     add_row(world, candidate, point, true);
     Row& row = rows_.back();
-    if (!pair.in_contact && end_speed(row, path_) < -options_.rest_speed) {
-      meeting_ = std::min(meeting_, pair.time);
+    const double end_gap = point.gap_at(a.end, b.end);
+    if (end_speed(row, path_) < -options_.rest_speed) {
+      const double there = pair.in_contact ? arrival(row) : pair.time;
+      if (there <= pair.time)
+        meeting_ = std::min(meeting_, there);  // else something else is first: a shorter plan
       rows_.pop_back();
       continue;
     }
-    row.bend =
-        point.gap_at(a.end, b.end) - row.gap - courses_.length() * lcp::contact_velocity(path_, row.contact);
+    row.bend = end_gap - row.gap - courses_.length() * lcp::contact_velocity(path_, row.contact);
     any = true;
   }
   return any;

@@ -91,6 +91,7 @@ class PlanMaker {
   bool gains() const;
   std::vector<RigidBody> without_arrivals(std::vector<double>& early);
   void remember() const;
+  double arrival(const Row& row) const;
   bool add_rows_of(const world::World& world, int candidate);
   double end_speed(const Row& row, const std::vector<RigidBody>& bodies) const;
 

@@ -321,14 +321,17 @@ void Resting::go_on(Instant& instant, CrowdList::Crowd& crowd) {
     planned = crowd_planner_.make(instant.world, members, instant.now, length, options);
     report_.checked += crowd_planner_.checked();
     report_.sweeps += crowd_planner_.sweeps();
-    if (!crowd_planner_.blocked().empty() && !std::exchange(stopped, true)) {
-      for (const int body : crowd_planner_.blocked())
-        stop(instant.world, body, instant.now, dt_, instant.report);
+    const bool blocked = !crowd_planner_.blocked().empty() && !stopped;
+    const bool is_dear = crowd_planner_.rows() > kManyRows && !blocked;
+    if ((crowd_planner_.shortened() > 0 || crowd_planner_.gains()) && !is_dear &&
+        length > kShortestOfCrowd * dt_) {
+      length *= 0.5;
       continue;
     }
-    const bool is_small = crowd_planner_.rows() <= kManyRows && length > kShortestOfCrowd * dt_;
-    if (crowd_planner_.shortened() == 0 || !is_small) break;
-    length *= 0.5;
+    if (!blocked) break;
+    for (const int body : crowd_planner_.blocked())
+      stop(instant.world, body, instant.now, dt_, instant.report);
+    stopped = true;
   }
   crowd.length = 2 * length;
   report_.shortened += crowd_planner_.shortened();

@@ -178,7 +178,7 @@ std::string broken_by(Worst& worst, const fc::Scene& scene) {
     if (rise > 1e-9 * before.size)
       fault(frame, fmt::format("energy rises by {:.3g} of {:.3g} J, told {:.3g}",
                                rise + report.correction_energy, before.size, report.correction_energy));
-    if (report.correction_energy > 0.05 * before.size)
+    if (report.correction_energy > 0.02 * before.size)
       fault(frame, fmt::format("corrections add {:.3g} of {:.3g} J", report.correction_energy, before.size));
     if (newton > 1e-10 && !report.shortened)
       fault(frame, fmt::format("Newton's law is off by {:.2g}", newton));
