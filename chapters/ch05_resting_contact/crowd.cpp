@@ -11,7 +11,10 @@ namespace {
 // A path is clear if its gap stays above this part of the margin, or half of what it was.
 constexpr double kFloor = 1.0 / 64;
 
-// Of the bodies' kinetic energy, by which a plan may add to what they have.
+// Few rows are swept more often: so many rows are looked at in any case.
+constexpr int kRowVisits = 4000;
+
+// Of the bodies' kinetic energy, by which plans may add in a frame to what they have.
 constexpr double kMostGained = 0.01;
 
 // Pairs of nodes that are looked at in one proof.
@@ -130,7 +133,7 @@ Planned CrowdPlanner::make(const world::World& world, std::span<const Member> me
     const int count = static_cast<int>(courses_.candidates[at(i)].contacts->points.size());
     for (int place = 0; place < count; ++place) add_row(world, i, place, false);
   }
-  swept_ = sweeps_.run(options_.sweeps);
+  swept_ = sweeps_.run(std::max(options_.sweeps, kRowVisits / (1 + rows())));
   find_paths(world);
   shares_.assign(courses_.members.size(), 1);
   Shortening(world, courses_, shares_, blocked_).run(kFloor * contacts_.margin());
@@ -202,7 +205,7 @@ void CrowdPlanner::find_paths(const world::World& world) {
     if (clear || round == options_.rounds) return;
     for (int i = 0; i < static_cast<int>(courses_.candidates.size()); ++i)
       if (!courses_.candidates[at(i)].clear) look_again(world, i);
-    swept_ += sweeps_.run(options_.path_sweeps);
+    swept_ += sweeps_.run(std::max(options_.path_sweeps, kRowVisits / (1 + rows())));
   }
 }
 
@@ -258,7 +261,7 @@ void CrowdPlanner::give_back(const world::World& world, std::vector<RigidBody>& 
   for (int i = 0; i < rows(); ++i) {
     const Row& row = rows_[at(i)];
     const PairContacts& pair = *courses_.candidates[at(row.pair)].contacts;
-    if (row.before >= -options_.rest_speed || point_of(row).lasts) continue;
+    if (row.before >= -contacts_.margin() / options_.frame || point_of(row).lasts) continue;
     back_[at(i)] = sweeps_.impulse(i) * world.restitution_of(pair.a, pair.b);
     any = any || back_[at(i)] > 0;
   }
@@ -348,7 +351,7 @@ Planned CrowdPlanner::take(const world::World& world) {
       gained -= member.state.mass * world.effects.gravity->dot(track.end.position - track.start.position);
     size += before + 0.5 * member.state.mass * slow * slow;
   }
-  gains_ = gained > kMostGained * size;
+  gains_ = gained > kMostGained * size * courses_.length() / options_.frame;
   return result;
 }
 

@@ -7,7 +7,8 @@
 namespace fc::resting {
 
 struct CrowdOptions {
-  double rest_speed = 0;  // m/s: what comes in faster gives back what its restitution says
+  double frame =
+      0;  // s: what comes in faster than a margin in that time gives back what its restitution says
   int sweeps = 16;
   int rounds = 3;       // in which pairs whose paths are not clear are looked at again,
   int path_sweeps = 8;  // with so many sweeps in each

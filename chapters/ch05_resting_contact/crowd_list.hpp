@@ -13,6 +13,7 @@ class CrowdList {
     std::vector<int> bodies;                                  // in order
     double length = std::numeric_limits<double>::infinity();  // s, of its next plan at most
     bool done = false;                                        // in this instant
+    bool jammed = false;  // between what does not move: shorter plans do not help
   };
   // A frame begins, with these crowds.
   void begin(std::size_t bodies, std::vector<std::vector<int>> found);

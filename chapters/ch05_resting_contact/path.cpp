@@ -8,7 +8,7 @@ namespace fc::resting {
 namespace {
 
 // Intervals are halved down to this part of the whole.
-constexpr double kLeastStep = 1.0 / 64, kRoughStep = 0.25;  // the second if advancement follows
+constexpr double kLeastStep = 1.0 / 64, kRoughStep = 1.0 / 32;  // the second if advancement follows
 
 // A plane between two convex bodies at one time (s), and the gap along it (m, certified).
 struct PlaneAt {

@@ -93,6 +93,8 @@ class PlanMaker {
   void remember() const;
   double arrival(const Row& row) const;
   bool add_rows_of(const world::World& world, int candidate);
+  Vec3 end_velocity(const Row& row, const std::vector<RigidBody>& bodies) const;
+  bool comes_in_fast(const Row& row, bool in_contact) const;
   double end_speed(const Row& row, const std::vector<RigidBody>& bodies) const;
 
   Contacts& contacts_;

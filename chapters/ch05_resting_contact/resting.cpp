@@ -312,7 +312,7 @@ void Resting::go_on(Instant& instant, CrowdList::Crowd& crowd) {
   if (instant.now >= dt_) return;
   const double half = instant.now < (0.5 - kShortest) * dt_ ? 0.5 * dt_ : dt_, left = half - instant.now;
   CrowdOptions options;
-  options.rest_speed = envelope() / dt_;
+  options.frame = dt_;
   options.sweeps = options_.sweeps;
   options.told = static_cast<bool>(instant.listeners.impact);
   Planned planned;
@@ -322,16 +322,20 @@ void Resting::go_on(Instant& instant, CrowdList::Crowd& crowd) {
     report_.checked += crowd_planner_.checked();
     report_.sweeps += crowd_planner_.sweeps();
     const bool blocked = !crowd_planner_.blocked().empty() && !stopped;
-    const bool is_dear = crowd_planner_.rows() > kManyRows && !blocked;
-    if ((crowd_planner_.shortened() > 0 || crowd_planner_.gains()) && !is_dear &&
-        length > kShortestOfCrowd * dt_) {
+    const bool is_small = blocked || crowd_planner_.rows() <= kManyRows;
+    const bool is_short = crowd_planner_.shortened() > 0 && !crowd.jammed;
+    if (is_small && (is_short || crowd_planner_.gains()) && length > kShortestOfCrowd * dt_) {
       length *= 0.5;
-      continue;
+    } else if (blocked) {
+      for (const int body : crowd_planner_.blocked())
+        stop(instant.world, body, instant.now, dt_, instant.report);
+      stopped = true;
+    } else if (is_short && stopped) {
+      crowd.jammed = true;
+      length = left;
+    } else {
+      break;
     }
-    if (!blocked) break;
-    for (const int body : crowd_planner_.blocked())
-      stop(instant.world, body, instant.now, dt_, instant.report);
-    stopped = true;
   }
   crowd.length = 2 * length;
   report_.shortened += crowd_planner_.shortened();
