@@ -324,7 +324,8 @@ void Resting::go_on(Instant& instant, CrowdList::Crowd& crowd) {
     const bool blocked = !crowd_planner_.blocked().empty() && !stopped;
     const bool is_small = blocked || crowd_planner_.rows() <= kManyRows;
     const bool is_short = crowd_planner_.shortened() > 0 && !crowd.jammed;
-    if (is_small && (is_short || crowd_planner_.gains()) && length > kShortestOfCrowd * dt_) {
+    if (is_small && (is_short || crowd_planner_.gains()) &&
+        length > (blocked ? kShortest : kShortestOfCrowd) * dt_) {
       length *= 0.5;
     } else if (blocked) {
       for (const int body : crowd_planner_.blocked())
