@@ -11,9 +11,6 @@ namespace {
 // A path is clear if its gap stays above this part of the margin, or half of what it was.
 constexpr double kFloor = 1.0 / 64;
 
-// Few rows are swept more often: so many rows are looked at in any case.
-constexpr int kRowVisits = 4000;
-
 // Of the bodies' kinetic energy, by which plans may add in a frame to what they have.
 constexpr double kMostGained = 0.01;
 
@@ -133,7 +130,7 @@ Planned CrowdPlanner::make(const world::World& world, std::span<const Member> me
     const int count = static_cast<int>(courses_.candidates[at(i)].contacts->points.size());
     for (int place = 0; place < count; ++place) add_row(world, i, place, false);
   }
-  swept_ = sweeps_.run(std::max(options_.sweeps, kRowVisits / (1 + rows())));
+  swept_ = sweeps_.run(std::max(options_.sweeps, options_.visits / (1 + rows())));
   find_paths(world);
   shares_.assign(courses_.members.size(), 1);
   Shortening(world, courses_, shares_, blocked_).run(kFloor * contacts_.margin());
@@ -205,7 +202,7 @@ void CrowdPlanner::find_paths(const world::World& world) {
     if (clear || round == options_.rounds) return;
     for (int i = 0; i < static_cast<int>(courses_.candidates.size()); ++i)
       if (!courses_.candidates[at(i)].clear) look_again(world, i);
-    swept_ += sweeps_.run(std::max(options_.path_sweeps, kRowVisits / (1 + rows())));
+    swept_ += sweeps_.run(std::max(options_.path_sweeps, options_.visits / (1 + rows())));
   }
 }
 

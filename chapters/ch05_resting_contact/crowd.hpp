@@ -12,6 +12,7 @@ struct CrowdOptions {
   int sweeps = 16;
   int rounds = 3;       // in which pairs whose paths are not clear are looked at again,
   int path_sweeps = 8;  // with so many sweeps in each
+  int visits = 4000;    // of rows, in all sweeps together: more sweeps, if they would be fewer
   bool told = true;     // whether rows are wanted
 };
 

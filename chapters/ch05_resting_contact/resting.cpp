@@ -314,6 +314,7 @@ void Resting::go_on(Instant& instant, CrowdList::Crowd& crowd) {
   CrowdOptions options;
   options.frame = dt_;
   options.sweeps = options_.sweeps;
+  options.visits = options_.visits;
   options.told = static_cast<bool>(instant.listeners.impact);
   Planned planned;
   double length = crowd.length > kNearlyAll * left ? left : crowd.length;

@@ -32,7 +32,8 @@ struct RestReport {
 struct RestOptions {
   double most_work = 2e5;   // see event_work(): more makes a crowd
   int most_meetings = 256;  // and so does a body that meets others more often in one frame
-  int sweeps = 16;          // of a crowd's rows
+  int sweeps = 16;          // of a crowd's rows,
+  int visits = 4000;        // and so many of single rows in any case
   IslandOptions solver = {};
 };
 
