@@ -28,9 +28,6 @@ constexpr std::int64_t kMostPairs = 1000, kMostPairsOfMeshes = 50'000;
 // Of the bodies' kinetic energy, by which pushes may add to it until the plan's end.
 constexpr double kMostBorrowed = 0.002;
 
-// Of the speed of a point of a pair in contact: it grazes if no more than this is along the normal.
-constexpr double kGraze = 0.1;
-
 constexpr int kHalvings = 16;           // of a plan's time, to find when a point arrives
 constexpr int kMostProofs = 4;          // rounds in which unproved pairs become rows
 constexpr int kMostRounds = 8;          // in which the paths' ends are looked at again
@@ -38,7 +35,8 @@ constexpr double kNearlyClosed = 1e-2;  // else a shorter plan is made
 constexpr double kClosed = 1e-6;        // of the margin: how exactly contacts close at the plan's end
 
 // Whether a pair that bounces comes in fast: it is in the margin, but there is room left.
-bool bounces_in(const IslandPair& pair, std::span<const Member> members, double rest_speed, double margin) {
+bool comes_in_fast(const IslandPair& pair, std::span<const Member> members, double rest_speed,
+                   double margin) {
   if (pair.contacts->points.empty()) return false;
   const RigidBody &a = members[at(pair.a)].state, &b = members[at(pair.b)].state;
   const Pose pose_a = a.pose(), pose_b = b.pose();
@@ -79,7 +77,7 @@ PlanMaker::Result PlanMaker::make(const world::World& world, const Island& islan
   rows_.clear();
   courses_.start(world, island.members, now, length);
   for (const IslandPair& pair : island.pairs) {
-    if (bounces_in(pair, courses_.members, options_.rest_speed, contacts_.margin())) continue;
+    if (comes_in_fast(pair, courses_.members, options_.rest_speed, contacts_.margin())) continue;
     const int candidate = courses_.candidate_of(pair.contacts, pair.a, pair.b);
     courses_.candidates[at(candidate)].in_contact = !pair.contacts->points.empty();
     for (const ContactPoint& point : pair.contacts->points) add_row(world, candidate, point, false);
@@ -92,10 +90,19 @@ PlanMaker::Result PlanMaker::make(const world::World& world, const Island& islan
     return PathOptions{.need = kFloor * contacts_.margin(), .most_pairs = most};
   };
   const auto acts_on_air = [&](const Row& row) {  // an impulse across more than the margin
-    return row.impulse > 0 && row.end_gap > contacts_.margin();
+    return row.impulse > 0 && row.arrives && row.end_gap > contacts_.margin();
   };
+  const auto is_put_out = [&](const Row& row) {  // of contact, by corrections, although it pushes
+    return row.impulse > 0 && !row.arrives && row.end_gap > contacts_.margin();
+  };
+  corrects_ = true;
   for (int round = 0; round < kMostProofs; ++round) {
-    if (const Result ends = close_ends(); ends != Result::proved) return ends;
+    Result ends = close_ends();
+    if (corrects_ && std::any_of(rows_.begin(), rows_.end(), is_put_out)) {
+      corrects_ = false;
+      ends = close_ends();
+    }
+    if (ends != Result::proved) return ends;
     if (gains()) return Result::unproved;
     courses_.find(world, false);
     for (std::size_t i = fast_.size(); i < courses_.members.size(); ++i) {
@@ -170,7 +177,8 @@ bool PlanMaker::solve() {
     if (lcp::contact_velocity(path_, row.contact) + allowed_[r] < -kClosed * contacts_.margin() / length)
       short_of = true;
   }
-  if (!short_of || !solve(path_)) {  // nothing to put right, or no room for all of it: gaps stay as they are
+  if (!corrects_ || !short_of ||
+      !solve(path_)) {  // nothing to put right, or no room for all of it: gaps stay as they are
     path_ = fast_;
     std::fill(impulses_.begin(), impulses_.end(), 0.0);
   }
@@ -178,29 +186,15 @@ bool PlanMaker::solve() {
   return true;
 }
 
-// The velocity (m/s) of the contact's point on B against that on A at the end of the paths, if bodies have these velocities.
-Vec3 PlanMaker::end_velocity(const Row& row, const std::vector<RigidBody>& bodies) const {
+// The contact's velocity (m/s) at the end of the paths, if bodies have these velocities.
+double PlanMaker::end_speed(const Row& row, const std::vector<RigidBody>& bodies) const {
   const Track &track_a = courses_.tracks[at(row.contact.body_a)],
               &track_b = courses_.tracks[at(row.contact.body_b)];
   const RigidBody &a = bodies[at(row.contact.body_a)], &b = bodies[at(row.contact.body_b)];
   const Vec3 arm_a = row.point.on_a(track_a.end, track_b.end) - track_a.end.position,
              arm_b = row.point.on_b(track_a.end, track_b.end) - track_b.end.position;
-  return b.velocity + b.spin.cross(arm_b) - a.velocity - a.spin.cross(arm_a);
-}
-
-// The part of it along the normal.
-double PlanMaker::end_speed(const Row& row, const std::vector<RigidBody>& bodies) const {
-  return end_velocity(row, bodies)
-      .dot(row.point.normal_at(courses_.tracks[at(row.contact.body_a)].end,
-                               courses_.tracks[at(row.contact.body_b)].end));
-}
-
-// Whether a row that arrives comes in fast. Points of a pair in contact that only graze do not: like the next facet of
-// what is meant to be round.
-bool PlanMaker::comes_in_fast(const Row& row, bool in_contact) const {
-  const double speed = end_speed(row, path_);
-  return speed < -options_.rest_speed &&
-         (!in_contact || std::abs(speed) > kGraze * end_velocity(row, path_).norm());
+  return row.point.normal_at(track_a.end, track_b.end)
+      .dot(b.velocity + b.spin.cross(arm_b) - a.velocity - a.spin.cross(arm_a));
 }
 
 // Solves until the gaps at the end are what the rows say of them.
@@ -266,10 +260,11 @@ double PlanMaker::arrival(const Row& row) const {
 }
 
 // The points that an unproved pair has at the end of its path become rows; whether there are new ones. One that comes in fast
-// there is an event instead.
+// there is an event instead, but for the next facets of a mesh that is in contact.
 bool PlanMaker::add_rows_of(const world::World& world, int candidate) {
   const Candidate pair = courses_.candidates[at(candidate)];
   const Track &a = courses_.tracks[at(pair.a)], &b = courses_.tracks[at(pair.b)];
+  const bool may_meet = !pair.in_contact || Contacts::convex(world, *pair.contacts);
   double gap = 0;
   bool any = false;
   for (const ContactPoint& point : contacts_.points_at(world, *pair.contacts, a.end, b.end, gap)) {
@@ -280,7 +275,7 @@ bool PlanMaker::add_rows_of(const world::World& world, int candidate) {
     add_row(world, candidate, point, true);
     Row& row = rows_.back();
     const double end_gap = point.gap_at(a.end, b.end);
-    if (comes_in_fast(row, pair.in_contact)) {
+    if (may_meet && end_speed(row, path_) < -options_.rest_speed) {
       const double there = pair.in_contact ? arrival(row) : pair.time;
       if (there <= pair.time)
         meeting_ = std::min(meeting_, there);  // else something else is first: a shorter plan

@@ -93,8 +93,6 @@ class PlanMaker {
   void remember() const;
   double arrival(const Row& row) const;
   bool add_rows_of(const world::World& world, int candidate);
-  Vec3 end_velocity(const Row& row, const std::vector<RigidBody>& bodies) const;
-  bool comes_in_fast(const Row& row, bool in_contact) const;
   double end_speed(const Row& row, const std::vector<RigidBody>& bodies) const;
 
   Contacts& contacts_;
@@ -106,6 +104,7 @@ class PlanMaker {
   std::vector<lcp::Contact> contact_list_;
   std::vector<double> allowed_, impulses_;
   double residual_ = 0, meeting_ = 0;
+  bool corrects_ = true;
   lcp::Status status_ = lcp::Status::limit;
   int solves_ = 0, steps_ = 0;
 };
