@@ -1,4 +1,4 @@
-"""Exercise 5.1: gaps that come to the middle of the envelope, by displacements and by velocities.
+"""Exercise 5.1: gaps that come to half of the envelope, by displacements and by velocities.
 
 Reads RUN_DIR/row.csv, which the target ch05_ex01_demo writes.
 """
@@ -23,7 +23,7 @@ def draw(run: Path) -> plt.Figure:
             gap.plot(table["t"][rows], 1000 * table["gap"][rows], color=colour, ls=line, lw=1.2, label=label)
             energy.plot(table["t"][rows], 1e6 * table["kinetic"][rows], color=colour, ls=line, lw=1.2, label=label)
             label = None
-    gap.axhline(2.5, color=GREY, ls=":", lw=1, label="the middle")
+    gap.axhline(2.5, color=GREY, ls=":", lw=1, label="h / 2")
     gap.set(title="Gap", xlabel="t [s]", ylabel="gap [mm]")
     energy.set(title="Kinetic energy", xlabel="t [s]", ylabel="energy [µJ]", yscale="symlog", xlim=(0, 0.3))
     gap.legend(loc="upper right")

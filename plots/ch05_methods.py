@@ -34,6 +34,8 @@ def draw(run: Path) -> plt.Figure:
         lost.plot(t, seconds, line, color=colour)
         rows = np.flatnonzero([m == method for m in work.text("method")])
         cost.loglog(work["second_ns"][rows] / 1000, work["height_error"][rows], mark + line, color=colour, ms=4)
+    for axes in (ball, gap, lost):  # the dashed line over the others
+        axes.lines[0].set_zorder(3)
     ball.set(title="A ball's last bounces", ylabel="height [mm]", xlim=(0.9, 1.9), ylim=(-5, 75))
     ball.legend(loc="upper right")
     gap.set(title="Ten boxes land on each other", ylabel="smallest gap [mm]", xlim=(0, 0.6))

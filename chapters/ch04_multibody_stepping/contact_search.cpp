@@ -133,7 +133,7 @@ void turn_to_passing_planes(const NearPair& near, const Vec3& origin_a,
 
 // The contacts of one pair at time `now`, and its certified gap (m); none if it does not touch.
 std::vector<lcp::Contact> contacts_of(const World& world, const Pair& pair, double now, double& certified) {
-  const double within = std::max(world.tolerance, world.touch);
+  const double within = world.tolerance;
   if (are_balls(world, pair)) {
     const Balls balls(world, pair, now);
     const double gap = balls.gap();
@@ -320,8 +320,7 @@ Island touching_island(const World& world, const Pair& pair, double now, StepRep
     PairGap touching{other.a, other.b, 0};
     const std::vector<lcp::Contact> contacts = contacts_of(world, other, now, touching.gap);
     if (contacts.empty()) return;
-    // In a wide shell the gap is known too roughly to be spent.
-    if (world.touch <= world.tolerance) island.gaps.push_back(touching);
+    island.gaps.push_back(touching);
     island.contacts.insert(island.contacts.end(), contacts.begin(), contacts.end());
     add_body(other.a);
     add_body(other.b);

@@ -36,7 +36,7 @@ struct Island {
   std::vector<PairGap> gaps;  // of the pairs that touch
 };
 
-// Everything that touches (gap within the tolerance, or World::touch) at time `now`, connected to the given
+// Everything that touches (gap within the tolerance) at time `now`, connected to the given
 // pair over bodies that can move.
 Island touching_island(const World& world, const Pair& pair, double now, StepReport& report);
 

@@ -8,13 +8,16 @@
 namespace fc::world {
 namespace {
 
-std::vector<Column> steps_columns() {
-  return {{"step", ""},         {"t", "s"},         {"kinetic", "J"},         {"potential", "J"},
-          {"energy", "J"},      {"px", "kg m/s"},   {"py", "kg m/s"},         {"pz", "kg m/s"},
-          {"lx", "kg m²/s"},    {"ly", "kg m²/s"},  {"lz", "kg m²/s"},        {"contacts", ""},
-          {"impacts", ""},      {"min_gap", "m"},   {"max_penetration", "m"}, {"lcp_rows", ""},
-          {"lcp_residual", ""}, {"lost_time", "s"}, {"ccd_ns", ""},           {"lcp_ns", ""},
-          {"step_ns", ""}};
+std::vector<Column> steps_columns(const MoreColumns& more) {
+  std::vector<Column> columns = {{"step", ""},       {"t", "s"},           {"kinetic", "J"},
+                                 {"potential", "J"}, {"energy", "J"},      {"px", "kg m/s"},
+                                 {"py", "kg m/s"},   {"pz", "kg m/s"},     {"lx", "kg m²/s"},
+                                 {"ly", "kg m²/s"},  {"lz", "kg m²/s"},    {"contacts", ""},
+                                 {"impacts", ""},    {"min_gap", "m"},     {"max_penetration", "m"},
+                                 {"lcp_rows", ""},   {"lcp_residual", ""}, {"lost_time", "s"},
+                                 {"ccd_ns", ""},     {"lcp_ns", ""},       {"step_ns", ""}};
+  columns.insert(columns.end(), more.columns.begin(), more.columns.end());
+  return columns;
 }
 std::vector<Column> contacts_columns(bool kinds) {
   std::vector<Column> columns = {{"t", "s"},        {"body_a", ""}, {"body_b", ""},      {"x", "m"},
@@ -50,9 +53,11 @@ Totals totals_of(const World& world) {
   return totals;
 }
 
-Recorder::Recorder(const Scene& scene, const World& world, const RunContext& context, bool kinds)
+Recorder::Recorder(const Scene& scene, const World& world, const RunContext& context, bool kinds,
+                   const MoreColumns& more)
     : kinds_(kinds),
-      steps_(context.out_dir / "steps.csv", steps_columns()),
+      more_(more),
+      steps_(context.out_dir / "steps.csv", steps_columns(more)),
       contacts_(context.out_dir / "contacts.csv", contacts_columns(kinds)),
       motion_(scene.name, context.chapter, scene.step->dt),
       folder_(context.out_dir),
@@ -155,27 +160,30 @@ void Recorder::motion_frame(const World& world, double t, double impulse, int co
 void Recorder::steps_row(const World& world, int number, double t, const StepReport& r) {
   const Totals e = totals_of(world);
   const Vec3 &p = e.momentum, &l = e.angular_momentum;
-  steps_.row({std::int64_t{number},
-              t,
-              e.kinetic,
-              e.potential,
-              e.kinetic + e.potential,
-              p.x(),
-              p.y(),
-              p.z(),
-              l.x(),
-              l.y(),
-              l.z(),
-              std::int64_t{r.contacts},
-              std::int64_t{r.impacts},
-              r.min_gap,
-              r.max_penetration,
-              std::int64_t{r.lcp_rows},
-              r.lcp_residual,
-              r.lost_time,
-              r.ccd_ns,
-              r.lcp_ns,
-              r.step_ns});
+  std::vector<Cell> row = {std::int64_t{number},
+                           t,
+                           e.kinetic,
+                           e.potential,
+                           e.kinetic + e.potential,
+                           p.x(),
+                           p.y(),
+                           p.z(),
+                           l.x(),
+                           l.y(),
+                           l.z(),
+                           std::int64_t{r.contacts},
+                           std::int64_t{r.impacts},
+                           r.min_gap,
+                           r.max_penetration,
+                           std::int64_t{r.lcp_rows},
+                           r.lcp_residual,
+                           r.lost_time,
+                           r.ccd_ns,
+                           r.lcp_ns,
+                           r.step_ns};
+  if (more_.cells)
+    for (const Cell& cell : more_.cells()) row.push_back(cell);
+  steps_.row(row);
 }
 
 void Recorder::poses_rows(const World& world, double t) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,10 +22,18 @@ struct Totals {
 };
 Totals totals_of(const World& world);
 
+// Columns that a later chapter adds to steps.csv, after chapter 4's.
+struct MoreColumns {
+  std::vector<Column> columns = {};
+  std::function<std::vector<Cell>()> cells =
+      {};  // of the frame that was stepped last; of row 0 before the first
+};
+
 class Recorder {
  public:
   // kinds: contacts.csv has the column `kind`.
-  Recorder(const Scene& scene, const World& world, const RunContext& context, bool kinds = false);
+  Recorder(const Scene& scene, const World& world, const RunContext& context, bool kinds = false,
+           const MoreColumns& more = {});
 
   void start(const World& world);  // row 0
   // To be called inside a step, with times within the frame: they only take notes.
@@ -53,6 +62,7 @@ class Recorder {
   };
 
   bool kinds_;
+  MoreColumns more_;
   TableWriter steps_, contacts_;
   std::optional<TableWriter> poses_, sensors_;
   MotionRecording motion_;

@@ -6,7 +6,7 @@
 namespace fc::world {
 
 int run_scene(const Scene& scene, const RunContext& context, Summary& summary, const StepFunction& step_frame,
-              bool kinds, const Prepare& prepare) {
+              bool kinds, const Prepare& prepare, const MoreColumns& more) {
   const Stopwatch watch;
   World world = build_world(scene);
   if (prepare) prepare(world);
@@ -20,7 +20,7 @@ int run_scene(const Scene& scene, const RunContext& context, Summary& summary, c
   summary.add_time("time to build shapes and hierarchies", built_ns);
 
   const StepSpec& step = *scene.step;
-  Recorder recorder(scene, world, context, kinds);
+  Recorder recorder(scene, world, context, kinds, more);
   recorder.start(world);
   Progress progress("frames", step.frames, context.quiet);
   try {

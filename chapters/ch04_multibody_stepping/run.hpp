@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "ch04_multibody_stepping/record.hpp"
 #include "ch04_multibody_stepping/world.hpp"
 #include "common/program.hpp"
 
@@ -16,9 +17,9 @@ using Prepare = std::function<void(World&)>;
 
 // Builds the world, prepares it (if there is anything to prepare), steps through all frames, writes
 // contract 1.5's files into the run's folder, and fills the summary. `kinds`: the step's contacts may last, so
-// contacts.csv says of which kind each is. The exit code; throws as build_world() and the step do (what was
+// contacts.csv says of which kind each is. `more`: what it adds to steps.csv. The exit code; throws as build_world() and the step do (what was
 // written so far stays).
 int run_scene(const Scene& scene, const RunContext& context, Summary& summary, const StepFunction& step_frame,
-              bool kinds = false, const Prepare& prepare = {});
+              bool kinds = false, const Prepare& prepare = {}, const MoreColumns& more = {});
 
 }  // namespace fc::world

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 
 namespace fc::world {
 
@@ -70,14 +71,22 @@ void Schedule::answered(int number, double end) {
   std::push_heap(queue_.begin(), queue_.end(), std::greater<>());
 }
 
-int Schedule::next() {
+double Schedule::next_time() {
   while (!queue_.empty()) {
+    const Event& event = queue_.front();
+    if (pair(event.number).open && pair(event.number).answers == event.answer) return event.time;
     std::pop_heap(queue_.begin(), queue_.end(), std::greater<>());
-    const Event event = queue_.back();
     queue_.pop_back();
-    if (pair(event.number).open && pair(event.number).answers == event.answer) return event.number;
   }
-  return -1;
+  return std::numeric_limits<double>::infinity();
+}
+
+int Schedule::next() {
+  if (next_time() == std::numeric_limits<double>::infinity()) return -1;
+  std::pop_heap(queue_.begin(), queue_.end(), std::greater<>());
+  const int number = queue_.back().number;
+  queue_.pop_back();
+  return number;
 }
 
 }  // namespace fc::world

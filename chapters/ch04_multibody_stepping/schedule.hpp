@@ -50,6 +50,7 @@ class Schedule {
   // The number of the pair whose event comes first, which is taken off the queue; -1 if there is none. Events
   // at the same time come in the order of their bodies' numbers.
   int next();
+  double next_time();  // of that event, s in the frame; infinite if there is none
 
  private:
   struct Event {

@@ -65,25 +65,21 @@ class Stepper {
       : world_(world), schedule_(world.schedule), dt_(dt), report_(report), listeners_(listeners) {}
 
   // Opens the pairs whose swept boxes overlap in the frame, and asks each for its next contact.
-  void begin_frame() {
+  void begin_frame(Planner* planner) {
     const int count = static_cast<int>(world_.bodies.size());
     std::vector<Bounds> boxes;
     boxes.reserve(world_.bodies.size());
     for (int body = 0; body < count; ++body) boxes.push_back(world_.swept_bounds(body, 0, dt_));
     schedule_.begin(boxes);
+    if (planner != nullptr)
+      for (const int body : planner->begin(world_, dt_, report_, listeners_))
+        schedule_.replace(body, world_.swept_bounds(body, 0, dt_));
     std::vector<std::pair<int, int>> pairs;
     schedule_.overlapping_pairs([&](int a, int b) {
-      const bool foreseen = world_.bodies[a].foreseen || world_.bodies[b].foreseen;
-      if (foreseen && !is_sensor_pair(world_, a, b)) return;
       if (world_.may_meet(a, b)) pairs.emplace_back(std::min(a, b), std::max(a, b));
     });
     std::sort(pairs.begin(), pairs.end());  // the tree's order is not the bodies'
-    for (const auto& [a, b] : pairs) {
-      if (std::binary_search(world_.proved.begin(), world_.proved.end(), std::pair(a, b)))
-        schedule_.pair(schedule_.open(a, b)).time = dt_;  // nothing to ask
-      else
-        open(a, b, 0);
-    }
+    for (const auto& [a, b] : pairs) open(a, b, 0);
   }
 
   // The earliest event that is still true; false if none is left in the frame.
@@ -127,7 +123,6 @@ class Stepper {
     for (const int body : stopped) {
       Body& b = world_.bodies[body];
       b.held = true;
-      b.steered = false;
       b.lies = lies;
       b.group = free ? island.bodies.front() : -1;
       b.group_velocity = free ? Vec3(momentum / mass) : Vec3(Vec3::Zero());
@@ -146,6 +141,21 @@ class Stepper {
     return touching;
   }
 
+  // These bodies move in another way from now on: whatever was known of their pairs is void.
+  void new_courses(const std::vector<int>& bodies, double now) {
+    std::vector<Bounds> boxes;
+    for (const int body : bodies) {
+      boxes.push_back(world_.swept_bounds(body, now, dt_));
+      schedule_.replace(body, boxes.back());
+    }
+    done_.resize(world_.bodies.size(), 0);
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      done_[static_cast<std::size_t>(bodies[i])] = 1;  // their pairs with this one are open, or it is itself
+      meet(bodies[i], boxes[i], now, [&](int other) { return done_[static_cast<std::size_t>(other)] != 0; });
+    }
+    for (const int body : bodies) done_[static_cast<std::size_t>(body)] = 0;
+  }
+
  private:
   // Held where it is, not as one of a group that goes on.
   static bool is_still(const Body& body) { return body.held && body.group < 0; }
@@ -156,8 +166,7 @@ class Stepper {
     for (const lcp::Contact& contact : island.contacts)
       for (const int number : {contact.body_a, contact.body_b}) {
         const Body& body = world_.bodies[number];
-        if (!world_.yields(number) || body.state.free_moves != Vec3::Ones() || body.asleep ||
-            body.supported || is_still(body))
+        if (!world_.yields(number) || body.state.free_moves != Vec3::Ones() || body.asleep || is_still(body))
           return false;
       }
     return true;
@@ -192,65 +201,13 @@ class Stepper {
     for (const int other : others_) open(body, other, now);
   }
 
-  // These bodies move in another way from now on: whatever was known of their pairs is void.
-  void new_courses(const std::vector<int>& bodies, double now) {
-    std::vector<Bounds> boxes;
-    for (const int body : bodies) {
-      boxes.push_back(world_.swept_bounds(body, now, dt_));
-      schedule_.replace(body, boxes.back());
-    }
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-      const std::span<const int> done(bodies.data(),
-                                      i + 1);  // their pairs with this one are open, or it is itself
-      meet(bodies[i], boxes[i], now,
-           [&](int other) { return std::find(done.begin(), done.end(), other) != done.end(); });
-    }
-  }
-
-  // Chapter 5: what comes in slowly does not bounce.
-  void settle(Local& local) const {
-    for (lcp::Contact& contact : local.contacts)
-      if (-lcp::contact_velocity(local.states, contact) <= world_.rest_speed) contact.restitution = 0;
-  }
-  // Chapter 5: a body that was stopped against gravity, by something that does not fall itself, does not fall
-  // for the rest of the frame; what gravity would still have done along the contact, it has done at once,
-  // unless something is in the way.
-  // From the ground up, until nothing more is supported.
-  void support(Local& local, const std::vector<lcp::Impulse>& impulses, double now) {
-    const Vec3& gravity = *world_.effects.gravity;
-    for (bool more = true; more;) {
-      more = false;
-      for (const lcp::Impulse& impulse : impulses) {
-        const lcp::Contact& contact = local.contacts[static_cast<std::size_t>(impulse.contact)];
-        const double pull = contact.normal.dot(gravity);
-        if (contact.restitution > 0 || !bears_weight(contact.normal, gravity)) continue;
-        const int upper = local.numbers[static_cast<std::size_t>(pull > 0 ? contact.body_a : contact.body_b)],
-                  lower = local.numbers[static_cast<std::size_t>(pull > 0 ? contact.body_b : contact.body_a)];
-        const bool falls = world_.yields(lower) && !world_.bodies[lower].supported &&
-                           !world_.gravity_on(world_.bodies[lower].state).isZero(0);
-        if (falls || world_.bodies[upper].supported || !world_.yields(upper)) continue;
-        world_.bodies[upper].supported = more = true;
-        const int place = pull > 0 ? contact.body_a : contact.body_b;
-        const Vec3 more_velocity =
-            (dt_ - now) *
-            (gravity - pull * contact.normal).cwiseProduct(world_.bodies[upper].state.free_moves);
-        const bool into =
-            std::any_of(local.contacts.begin(), local.contacts.end(), [&](const lcp::Contact& c) {
-              const double along = c.normal.dot(more_velocity);
-              const double rounding = 1e-12 * more_velocity.norm();
-              return (c.body_a == place && along > rounding) || (c.body_b == place && along < -rounding);
-            });
-        if (!into) local.states[static_cast<std::size_t>(place)].velocity += more_velocity;
-      }
-    }
-  }
-
   World& world_;
   Schedule& schedule_;
   double dt_;
   StepReport& report_;
   const Listeners& listeners_;
   std::vector<int> others_;
+  std::vector<char> done_;       // of each body, in new_courses()
   std::vector<PairGap> solved_;  // the pairs that touched at the last instant, and its time
   double solved_at_ = -1;
 };
@@ -258,7 +215,6 @@ class Stepper {
 void Stepper::solve(const Island& island, double now) {
   const Stopwatch watch;
   Local local(world_, island, now);
-  if (world_.rest_speed > 0) settle(local);
   const Totals before(local.states);
   const lcp::ImpactResult impact = lcp::resolve_impact(local.states, local.contacts, world_.impact);
   if (impact.status != lcp::Status::solved)
@@ -296,7 +252,6 @@ void Stepper::solve(const Island& island, double now) {
       if (body.held) lose(now - body.time);
       changed.push_back(island.bodies[i]);
     }
-  if (world_.rest_speed > 0 && world_.effects.gravity) support(local, impact.impulses, now);
   if (world_.effects.sleep) wake(world_, now, changed, report_);
   for (const int body : changed) {
     const auto place = std::find(island.bodies.begin(), island.bodies.end(), body) - island.bodies.begin();
@@ -310,15 +265,17 @@ void Stepper::solve(const Island& island, double now) {
   new_courses(changed, now);
 }
 
+StepReport step(World& world, double dt, const Listeners& listeners, Planner* planner);
+
 // A frame that is cut where bodies with a path take new courses.
-StepReport step_in_parts(World& world, double dt, const Listeners& listeners) {
+StepReport step_in_parts(World& world, double dt, const Listeners& listeners, Planner* planner) {
   StepReport all;
   all.min_gap = std::numeric_limits<double>::infinity();
   double length = 0;
   for (double start = 0; start < dt; start += length) {
     length = until_next_row(world, dt - start);
     world.part_start = start;
-    const StepReport part = step(world, length, from(start, listeners));
+    const StepReport part = step(world, length, from(start, listeners), planner);
     add(part, all);
     all.step_ns += part.step_ns;
     all.ccd_ns += part.ccd_ns;
@@ -327,13 +284,11 @@ StepReport step_in_parts(World& world, double dt, const Listeners& listeners) {
   return all;
 }
 
-}  // namespace
-
-StepReport step(World& world, double dt, const Listeners& listeners) {
+StepReport step(World& world, double dt, const Listeners& listeners, Planner* planner) {
   if (!(dt > 0 && std::isfinite(dt)))
     throw std::invalid_argument(fmt::format("step: dt is {} s; it must be finite and > 0", dt));
   if (world.effects.paths) {
-    if (until_next_row(world, dt) < dt) return step_in_parts(world, dt, listeners);
+    if (until_next_row(world, dt) < dt) return step_in_parts(world, dt, listeners, planner);
     follow_paths(world, dt);
   }
   const Stopwatch watch;
@@ -342,10 +297,16 @@ StepReport step(World& world, double dt, const Listeners& listeners) {
 
   // ANCHOR: step
   Stepper stepper(world, dt, report, listeners);
-  stepper.begin_frame();
+  stepper.begin_frame(planner);
   int next = -1;
   double now = 0;
-  while (stepper.next(next, now)) {
+  while (true) {
+    if (planner != nullptr && planner->next_end() <= std::min(world.schedule.next_time(), dt)) {
+      now = planner->next_end();
+      stepper.new_courses(planner->end_plans(world, now, report, listeners), now);
+      continue;
+    }
+    if (!stepper.next(next, now)) break;
     // From contact to contact: the earliest of all pairs.
     const Pair pair = world.schedule.pair(next);
     if (!pair.contact) {  // proved clear only until now
@@ -355,6 +316,11 @@ StepReport step(World& world, double dt, const Listeners& listeners) {
 
     if (is_sensor_pair(world, pair.a, pair.b)) {
       stepper.sight(pair.a, pair.b, now);
+      continue;
+    }
+
+    if (planner != nullptr) {
+      stepper.new_courses(planner->meet(world, pair.a, pair.b, now, report, listeners), now);
       continue;
     }
 
@@ -372,7 +338,7 @@ StepReport step(World& world, double dt, const Listeners& listeners) {
   }
   // ANCHOR_END: step
 
-  if (world.effects.sleep) fall_asleep(world, dt, report);
+  if (world.effects.sleep && planner == nullptr) fall_asleep(world, dt, report);
   for (int body = 0; body < static_cast<int>(world.bodies.size()); ++body) {
     Body& b = world.bodies[body];
     if (b.held) report.lost_time = std::max(report.lost_time, dt - b.time);
@@ -385,6 +351,16 @@ StepReport step(World& world, double dt, const Listeners& listeners) {
   report.step_ns = watch.ns();
   report.ccd_ns = report.step_ns - report.lcp_ns;
   return report;
+}
+
+}  // namespace
+
+StepReport step(World& world, double dt, const Listeners& listeners) {
+  return step(world, dt, listeners, nullptr);
+}
+
+StepReport step_with(Planner& planner, World& world, double dt, const Listeners& listeners) {
+  return step(world, dt, listeners, &planner);
 }
 
 }  // namespace fc::world

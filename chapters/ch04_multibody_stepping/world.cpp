@@ -117,13 +117,12 @@ void turn_on(double spin_drag, double elapsed, double& start, double& rate) {
 }  // namespace
 
 RigidBody as_it_moves(const Body& body, RigidBody state) {
-  if (body.held) {
+  if (body.plan.number >= 0) {
+    state.velocity = body.plan.linear;
+    state.spin = body.plan.angular;
+  } else if (body.held) {
     state.velocity = body.group_velocity;
     state.spin = Vec3::Zero();
-  }
-  if (body.steered) {
-    state.velocity += body.steer_velocity;
-    state.spin += body.steer_spin;
   }
   return state;
 }
@@ -132,20 +131,20 @@ ca::Motion World::motion(int body, double time) const {
   const Body& b = bodies[body];
   const RigidBody state = state_at(body, time);
   ca::Motion motion(as_it_moves(b, state));
-  if ((b.held && b.group < 0) || b.asleep || state.is_static()) return motion;
+  if ((b.held && b.group < 0) || b.asleep || state.is_static() || b.plan.number >= 0) return motion;
   if (b.held) {  // as the group moves
     motion.velocity = course(body, time).velocity;
     add_forces(b, motion);
     return motion;
   }
   add_effects(body, motion);
-  if (b.free && !b.steered) turn_on(motion.spin_drag, time - b.time, motion.free_start, motion.free_rate);
+  if (b.free) turn_on(motion.spin_drag, time - b.time, motion.free_start, motion.free_rate);
   return motion;
 }
 
 // ANCHOR: motion
 void World::add_forces(const Body& body, ca::Motion& motion) const {
-  if (effects.gravity && !body.supported) motion.acceleration = gravity_on(body.state);
+  if (effects.gravity) motion.acceleration = gravity_on(body.state);
   if (!effects.drag) return;
   motion.drag = effects.drag->linear;
   motion.spin_drag = effects.drag->angular;
@@ -155,7 +154,7 @@ void World::add_forces(const Body& body, ca::Motion& motion) const {
 void World::add_effects(int body, ca::Motion& motion) const {
   const Body& b = bodies[body];
   add_forces(b, motion);
-  if (b.free && !b.steered) {  // while it is steered its spin is constant: so is its energy
+  if (b.free) {
     motion.free = b.free;
     motion.free_start = b.free_start;
     motion.free_rate = b.free_rate;
@@ -166,10 +165,11 @@ void World::add_effects(int body, ca::Motion& motion) const {
 RigidBody World::state_at(int body, double time) const {
   RigidBody state = bodies[body].state;
   const double elapsed = time - bodies[body].time;
-  if (elapsed == 0 || stays(body)) return state;
   const Body& b = bodies[body];
+  if (elapsed == 0 || (b.plan.number < 0 && stays(body))) return state;
   ca::Motion motion(as_it_moves(b, state));
-  if (yields(body) && !b.held && !b.asleep) add_effects(body, motion);
+  const bool planned = b.plan.number >= 0;
+  if (yields(body) && !b.held && !b.asleep && !planned) add_effects(body, motion);
   if (b.held && b.group >= 0) {  // forces change the velocities that it keeps, too
     add_forces(b, motion);
     ca::Motion kept(state);
@@ -177,13 +177,12 @@ RigidBody World::state_at(int body, double time) const {
     state.velocity = kept.velocity_at(elapsed);
   }
   state.position = motion.position_at(elapsed);
-  if (!b.held) {
+  if (planned) {
+    state.velocity += elapsed * b.plan.push;
+    state.spin += elapsed * b.plan.turn;
+  } else if (!b.held) {
     state.velocity = motion.velocity_at(elapsed);
     state.spin = motion.spin_at(elapsed);
-    if (b.steered) {
-      state.velocity -= b.steer_velocity;
-      state.spin -= b.steer_spin;
-    }
   }
   if (motion.free) {
     state.orientation = Quat(motion.rotation_at(elapsed)).normalized();
@@ -198,7 +197,8 @@ void World::set_course(int body, const RigidBody& state, double time) {
   Body& b = bodies[body];
   b.state = state;
   b.time = time;
-  b.held = b.asleep = b.steered = false;
+  b.held = b.asleep = false;
+  b.plan = {};
   b.group = -1;
   b.group_velocity = Vec3::Zero();
   if (!effects.gyroscopic || !yields(body) || state.free_turns != Vec3::Ones()) return;
@@ -216,7 +216,7 @@ void World::carry(int body, double time, double name) {
   b.clock += (b.held ? b.time : time) - name;  // who is held is late from then on
   b.state = state_at(body, time);
   b.group_velocity = group_velocity;
-  if (b.free && b.steered) {  // from here on it turns freely again
+  if (b.free && b.plan.number >= 0) {  // from here on it turns freely again
     ca::Motion motion(b.state);
     motion.turn_freely(principal[b.shape]);
     b.free = motion.free;
@@ -234,7 +234,7 @@ ca::Motion World::course(int body, double time) const {
   path.position = b.state.position;
   if (stays(body)) return path;
   path.velocity = as_it_moves(b, b.state).velocity;
-  if (yields(body) && (!b.held || b.group >= 0) && !b.asleep) add_forces(b, path);
+  if (yields(body) && (!b.held || b.group >= 0) && !b.asleep && b.plan.number < 0) add_forces(b, path);
   const double elapsed = time - b.time;
   const Vec3 position = path.position_at(elapsed), velocity = path.velocity_at(elapsed);
   path.position = position;
@@ -272,7 +272,7 @@ Bounds World::swept_bounds(int body, double from, double to) const {
   // Round-off of the positions and of the pose: some epsilons of the coordinates.
   const double size =
       std::max(box.low.cwiseAbs().maxCoeff(), box.high.cwiseAbs().maxCoeff()) + half.maxCoeff();
-  const Vec3 margin = half + Vec3::Constant(std::max(tolerance, touch) + kBoundsRounding * size);
+  const Vec3 margin = half + Vec3::Constant(keep() + kBoundsRounding * size);
   return {box.low - margin, box.high + margin};
 }
 

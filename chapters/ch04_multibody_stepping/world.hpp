@@ -19,6 +19,15 @@
 
 namespace fc::world {
 
+// A course that is not free flight, from the body's `time` on: it goes straight on and turns with constant spin, and its
+// velocities meanwhile change evenly. The bodies of one plan are proved to keep apart from each other, and from all that
+// nothing moves, until they get another course.
+struct Plan {
+  int number = -1;                                     // -1: the body flies
+  Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();  // m/s, rad/s, of the path
+  Vec3 push = Vec3::Zero(), turn = Vec3::Zero();       // m/s^2, rad/s^2, of the velocities
+};
+
 // A body and the time within the frame, in s, at which its state stands. Between its own events a body is not
 // touched: its state at another time follows from its motion (constant spin, or torque-free rotation;
 // constant velocity, or exact free fall; with or without drag).
@@ -34,17 +43,13 @@ struct Body {
   bool sensor = false;                 // reports contacts, resolves none
   bool asleep = false;                 // at rest until something hits it: see sleep.hpp
   bool was_held = false;               // until the end of the last frame
-  bool supported = false;              // for this frame: what it lies on cancels gravity (chapter 5)
   bool lies = false;                   // held, and on nothing that moves
-  bool foreseen = false;  // its way through the frame is proved, whatever comes near it (chapter 5)
+  Plan plan;                           // if a Planner made one
   // Of a kinematic body that follows one, and the time on it (s) at which the frame, or the part of it that is
   // being stepped, began: the world's, less what the body was held.
   std::shared_ptr<const Path> path;
   double clock = 0;
-  // Chapter 5: it is moved by this, too, until it takes a new course; no velocity knows of it.
-  bool steered = false;
-  Vec3 steer_velocity = Vec3::Zero(), steer_spin = Vec3::Zero();  // m/s, rad/s
-  double still = 0;                                               // s, how long it has lain without a break
+  double still = 0;  // s, how long it has lain without a break
   // With a gyroscopic effect: its rotation since the last impact, and where on it the body is at `time`.
   std::shared_ptr<const ca::TorqueFree> free;
   double free_start = 0, free_rate = 1;
@@ -59,7 +64,7 @@ struct Sighting {
   double speed = 0;                                  // m/s, n.(v_body - v_sensor) there
 };
 
-// A body's state with the velocities that its points have: if it is held, its group's or none; those of steering included.
+// A body's state with the velocities that its points have: if it is held, its group's or none; if it is planned, its path's.
 RigidBody as_it_moves(const Body& body, RigidBody state);
 
 struct World {
@@ -77,12 +82,7 @@ struct World {
   double tolerance = 1e-6;                   // m; the scene's, or what rounding allows at least
   std::int64_t max_pairs = 1'000'000;        // of nodes, for one search; it then goes on from where it got to
   double part_start = 0;  // s, in the frame: from where the times of its bodies count, if it is cut in parts
-  double touch = 0;  // m, how near is a contact when something is hit; no less than the tolerance (chapter 5)
-  double reserve = 0;     // m, half of which a pair has left when it is stopped; 0: the tolerance (chapter 5)
-  double rest_speed = 0;  // m/s, what comes in no faster does not bounce, and is then supported (chapter 5)
-  // Pairs (a < b, in order) that are proved clear for the next frame as long as neither takes a new course
-  // (chapter 5).
-  std::vector<std::pair<int, int>> proved;
+  double reserve = 0;     // m, half of which a pair has left when it is stopped; 0: the tolerance
   lcp::ImpactOptions impact = {};  // the solver of an instant's contacts
   SolverSpec solver;               // what the scene says of it
 
@@ -103,9 +103,9 @@ struct World {
   // Whether it stays where it is until the frame's end, if nothing hits it.
   bool stays(int body) const {
     const Body& b = bodies[body];
-    if (((b.held && b.group < 0) || b.asleep) && !b.steered) return true;
+    if ((b.held && b.group < 0) || b.asleep) return true;
     const bool falls =
-        !b.state.is_static() && effects.gravity && !b.supported && !b.state.free_moves.isZero(0);
+        !b.state.is_static() && effects.gravity && b.plan.number < 0 && !b.state.free_moves.isZero(0);
     const RigidBody moving = as_it_moves(b, b.state);
     return !falls && moving.velocity.isZero(0) && moving.spin.isZero(0);
   }
@@ -113,12 +113,18 @@ struct World {
   bool held_together(int a, int b) const {
     return bodies[a].group >= 0 && bodies[a].group == bodies[b].group;
   }
+  // Whether a plan has proved already that two bodies keep apart.
+  bool planned_apart(int a, int b) const {
+    const int plan_a = bodies[a].plan.number, plan_b = bodies[b].plan.number;
+    return (plan_a >= 0 && (plan_a == plan_b || !yields(b))) || (plan_b >= 0 && !yields(a));
+  }
   // Whether an impulse at the body's surface can turn it, or its spin moves its surface along the normal.
   bool turns(int body) const { return effects.arms || ball_radius[bodies[body].shape] == 0; }
   // Whether two bodies are to be asked for contacts at all: one of them moves, and one can be moved, or is a
   // sensor.
   bool may_meet(int a, int b) const {
-    return !(stays(a) && stays(b)) && (yields(a) || yields(b) || bodies[a].sensor || bodies[b].sensor);
+    if (bodies[a].sensor || bodies[b].sensor) return !(stays(a) && stays(b));
+    return !(stays(a) && stays(b)) && (yields(a) || yields(b)) && !planned_apart(a, b);
   }
   bool convex(int body) const { return shapes[bodies[body].shape].convex(); }
   // Whether it moves, whatever lies on it.
@@ -137,12 +143,6 @@ struct World {
   // that.
   Bounds swept_bounds(int body, double from, double to) const;
 };
-
-// Whether a contact with this normal can carry what gravity pulls at, or is a wall (chapter 5).
-inline bool bears_weight(const Vec3& normal, const Vec3& gravity) {
-  constexpr double kSteepest = 0.05;  // the cosine between the two
-  return std::abs(normal.dot(gravity)) >= kSteepest * gravity.norm();
-}
 
 // Throws InputError: shapes (see build_shapes), and two bodies that overlap by more than the tolerance.
 World build_world(const Scene& scene);
@@ -192,6 +192,23 @@ struct Listeners {
   OnSighting sighting = {};
 };
 
+// What a later chapter puts in the place of an instant's impacts: bodies in contact that go on together. Times are in s,
+// within the frame. Each function returns the bodies that have got another course.
+class Planner {
+ public:
+  virtual ~Planner() = default;
+  // A frame of dt seconds begins; all bodies fly, and their boxes are in the schedule.
+  virtual std::vector<int> begin(World& world, double dt, StepReport& report, const Listeners& listeners) = 0;
+  // When the next plan ends; infinite if there is none.
+  virtual double next_end() const = 0;
+  // The plans that end now.
+  virtual std::vector<int> end_plans(World& world, double now, StepReport& report,
+                                     const Listeners& listeners) = 0;
+  // Two bodies of different plans, or that fly, meet now.
+  virtual std::vector<int> meet(World& world, int a, int b, double now, StepReport& report,
+                                const Listeners& listeners) = 0;
+};
+
 // One frame of dt seconds (> 0): from contact to contact.
 //
 // The earliest contact of all pairs is found by conservative advancement; every touching point of the bodies
@@ -205,5 +222,7 @@ struct Listeners {
 // cannot be solved, or a search reaches its limit without progress; std::invalid_argument for a dt that is
 // not finite and > 0, and then nothing has moved.
 StepReport step(World& world, double dt, const Listeners& listeners = {});
+// The same with a planner, which plans those bodies that do not fly, and solves all contacts; nothing is held.
+StepReport step_with(Planner& planner, World& world, double dt, const Listeners& listeners = {});
 
 }  // namespace fc::world

@@ -2,312 +2,354 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+
+#include "ch03_impulse_lcp/impact.hpp"
 
 namespace fc::resting {
 namespace {
 
-constexpr int kAllRowsEvery = 16;  // sweeps
-constexpr int kPlainSweeps = 3;    // at the end, without conjugate directions
+// A path is clear if its gap stays above this part of the margin, or half of what it was.
+constexpr double kFloor = 1.0 / 64;
 
-}  // namespace
+// Of the bodies' kinetic energy, by which plans may add in a frame to what they have.
+constexpr double kMostGained = 0.01;
 
-// L with L L' = the inverse inertia; of a body that may not turn about all of its axes it is found in these,
-// where the fixed ones stand apart.
-Mat3 root_of(const RigidBody& body, const Mat3& inverse_inertia) {
-  if (body.free_turns == Vec3::Ones()) return inverse_inertia.llt().matrixL();
-  const Mat3 free = body.free_turns.asDiagonal(), fixed = (Vec3::Ones() - body.free_turns).asDiagonal();
-  const Mat3 lower = (body.inverse_inertia_body + fixed).llt().matrixL();
-  return body.orientation.toRotationMatrix() * lower * free;
-}
+// Pairs of nodes that are looked at in one proof.
+constexpr std::int64_t kMostPairs = 50'000;
 
-template <class Real>
-void Rows<Real>::begin(std::span<const RigidBody> bodies, std::span<const double> reaches) {
-  rows_.clear();
-  lines_.clear();
-  arms_.clear();
-  masses_.clear();
-  places_.clear();
-  starts_.clear();
-  for (const RigidBody& body : bodies) {
-    Mass mass{body.inverse_mass,
-              body.inverse_mass * body.free_moves,
-              std::sqrt(body.inverse_mass) * body.free_moves,
-              0,
-              Mat3::Zero(),
-              Mat3::Zero()};
-    if (!body.is_static()) {
-      mass.turn = body.inverse_inertia_world();
-      mass.turn_root = root_of(body, mass.turn);
-      const double reach = reaches.empty() ? 0 : reaches[masses_.size()];
-      mass.reach = static_cast<Real>(std::max(body.inverse_mass, reach * reach * mass.turn.norm()));
+// Of the time until two come near: so far they go. And what is less than this share is nothing.
+constexpr double kOfFree = 0.9, kLeastShare = 1e-3;
+
+// Finds shares of the paths of a crowd with which nobody is in anybody's way.
+class Shortening {
+ public:
+  Shortening(const world::World& world, Courses& courses, std::vector<double>& shares,
+             std::vector<int>& blocked)
+      : world_(world),
+        courses_(courses),
+        shares_(shares),
+        blocked_(blocked),
+        pairs_of_(courses.members.size()) {}
+
+  void run(double floor) {
+    if (std::all_of(courses_.candidates.begin(), courses_.candidates.end(),
+                    [](const Candidate& c) { return c.clear; }))
+      return;
+    const int count = static_cast<int>(courses_.candidates.size());
+    std::vector<char> waits(courses_.candidates.size(), 0);
+    std::vector<int> waiting;
+    for (int i = 0; i < count; ++i) {
+      const Candidate& pair = courses_.candidates[at(i)];
+      if (!pair.clear) waiting.push_back(i);
+      waits[at(i)] = !pair.clear;
+      pairs_of_[at(pair.a)].push_back(i);
+      pairs_of_[at(pair.b)].push_back(i);
     }
-    masses_.push_back(mass);
-    places_.push_back(body.position);
-    starts_.push_back({body.velocity, body.spin});
-  }
-  velocities_ = starts_;
-  changes_.assign(bodies.size(), Vec8::Zero());
-  displacements_.assign(bodies.size(), Vec8::Zero());
-  is_touched_.assign(bodies.size(), 0);
-  touched_.clear();
-  start_of_.clear();
-}
-
-template <class Real>
-void Rows<Real>::touch(int body) {
-  if (is_touched_[at(body)] || masses_[at(body)].inverse == 0) return;
-  is_touched_[at(body)] = 1;
-  touched_.push_back(body);
-}
-
-template <class Real>
-int Rows<Real>::add(const lcp::Contact& c, double allowed, double impulse) {
-  Arms arms{c.normal, Vec3::Zero(), Vec3::Zero(), allowed};
-  if (c.turns_a) arms.a = (c.point - places_[at(c.body_a)]).cross(c.normal);
-  if (c.turns_b) arms.b = (c.point - places_[at(c.body_b)]).cross(c.normal);
-  const Mass &a = masses_[at(c.body_a)], &b = masses_[at(c.body_b)];
-  const Twist &start_a = starts_[at(c.body_a)], &start_b = starts_[at(c.body_b)];
-  Eigen::Matrix<double, 6, 1> end_a, end_b;
-  end_a << -a.root.cwiseProduct(c.normal), -(a.turn_root.transpose() * arms.a);
-  end_b << b.root.cwiseProduct(c.normal), b.turn_root.transpose() * arms.b;
-  const double root = std::sqrt(end_a.squaredNorm() + end_b.squaredNorm());
-  Line line{Vec8::Zero(), Vec8::Zero()};
-  line.a.template head<6>() = (end_a / root).template cast<Real>();
-  line.b.template head<6>() = (end_b / root).template cast<Real>();
-  const double closing = c.normal.dot(start_b.linear - start_a.linear) + arms.b.dot(start_b.angular) -
-                         arms.a.dot(start_a.angular);
-  Row row{};
-  row.a = c.body_a;
-  row.b = c.body_b;
-  row.root = static_cast<Real>(root);
-  row.allowed = static_cast<Real>((closing + allowed) / root);
-  row.impulse = static_cast<Real>(impulse * root);
-  rows_.push_back(row);
-  lines_.push_back(line);
-  arms_.push_back(arms);
-  start_of_.clear();
-  return rows() - 1;
-}
-
-template <class Real>
-double Rows<Real>::speed(int number) const {
-  const Arms& arms = arms_[at(number)];
-  const Twist &a = velocities_[at(rows_[at(number)].a)], &b = velocities_[at(rows_[at(number)].b)];
-  return arms.normal.dot(b.linear - a.linear) + arms.b.dot(b.angular) - arms.a.dot(a.angular);
-}
-
-template <class Real>
-double Rows<Real>::residual() const {
-  double worst = 0;
-  for (int r = 0; r < rows(); ++r) {
-    const double push = static_cast<double>(rows_[at(r)].impulse * rows_[at(r)].root);
-    worst = std::max(worst, std::abs(std::min(push, speed(r) + arms_[at(r)].allowed)));
-  }
-  return scale_ > 0 ? worst / scale_ : 0;
-}
-
-// The body's velocity, exactly as its impulses make it.
-template <class Real>
-void Rows<Real>::work_out(int body) {
-  Vec3 push = Vec3::Zero(), turn = Vec3::Zero();
-  rows_of(body, [&](int r) {
-    const double z = impulse(r);
-    if (z == 0) return;
-    const Arms& arms = arms_[at(r)];
-    const bool is_a = rows_[at(r)].a == body;
-    push += (is_a ? -z : z) * arms.normal;
-    turn += is_a ? Vec3(-z * arms.a) : Vec3(z * arms.b);
-  });
-  const Mass& mass = masses_[at(body)];
-  velocities_[at(body)].linear = starts_[at(body)].linear + mass.move.cwiseProduct(push);
-  velocities_[at(body)].angular = starts_[at(body)].angular + mass.turn * turn;
-}
-
-template <class Real>
-double Rows<Real>::solve(const CrowdOptions& options, int& sweeps) {
-  // The guess z, times s: s z'b + s^2 z'Az/2 is the least for s = -z'b / z'Az.
-  scale_ = 0;
-  double along_b = 0, size = 0;
-  for (std::size_t r = 0; r < rows_.size(); ++r) {
-    const Row& row = rows_[r];
-    scale_ = std::max(scale_, static_cast<double>(std::abs(row.allowed) * row.root));
-    if (!(row.impulse > 0)) continue;
-    along_b += static_cast<double>(row.impulse * row.allowed);
-    apply(lines_[r], row, row.impulse, changes_);
-  }
-  for (const Vec8& change : changes_) size += static_cast<double>(change.squaredNorm());
-  const auto share = static_cast<Real>(size > 0 ? std::clamp(-along_b / size, 0.0, 1.0) : 0);
-  for (Vec8& change : changes_) change *= share;
-  for (Row& row : rows_) row.impulse *= share;
-
-  // Most rows push nothing and will not: between sweeps over all of them, only those that may.
-  const auto near = static_cast<Real>(options.near * scale_);
-  const auto done = static_cast<Real>(options.residual * scale_);
-  row_direction_.assign(rows_.size(), 0);
-  direction_.assign(changes_.size(), Vec8::Zero());
-  Real last = 0;
-  for (int sweep = 0; sweep < options.most_sweeps; ++sweep) {
-    ++sweeps;
-    Real worst = 0, changed = 0;  // what each row lacked when its turn came; the sum of squares, weighted
-    before_ = changes_;
-    const auto visit = [&](int r) {
-      Row& row = rows_[at(r)];
-      const Line& line = lines_[at(r)];
-      row.before = row.impulse;
-      const Real w = along(line, row, changes_) + row.allowed;
-      const Real by = std::max(-row.impulse, -w);
-      if (by == 0) return w * row.root < near;
-      apply(line, row, by, changes_);
-      row.impulse += by;
-      worst = std::max(worst, row.root * std::abs(by));
-      changed += by * by;
-      return true;
-    };
-    const bool all = sweep % kAllRowsEvery == 0;
-    if (all) {
-      waiting_.clear();
-      for (int r = 0; r < rows(); ++r)
-        if (visit(r)) waiting_.push_back(r);
-    } else {
-      for (const int r : waiting_) visit(r);
-    }
-    if (all && worst <= done) break;  // others may close in that had no turn
-    if (sweep + kPlainSweeps >= options.most_sweeps) continue;
-    // What a sweep changes is the gradient of conjugate gradients (Silcowitz, Niebe, Erleben 2010): the last
-    // direction is gone on with as far as Fletcher and Reeves say, or forgotten where that does not help.
-    Real go_on = last > 0 ? changed / last : 0;
-    last = changed;
-    if (go_on > 1 || all) {  // where that does not help, and with other rows: anew
-      std::fill(row_direction_.begin(), row_direction_.end(), Real(0));
-      std::fill(direction_.begin(), direction_.end(), Vec8(Vec8::Zero()));
-      go_on = 0;
-    }
-    for (const int r : waiting_) {
-      Row& row = rows_[at(r)];
-      Real& direction = row_direction_[at(r)];
-      const Real step = row.impulse - row.before;
-      row.impulse += go_on * direction;
-      direction = go_on * direction + step;
-    }
-    for (std::size_t k = 0; k < changes_.size(); ++k) {
-      const Vec8 step = changes_[k] - before_[k];
-      changes_[k] += go_on * direction_[k];
-      direction_[k] = go_on * direction_[k] + step;
-    }
-  }
-  waiting_.clear();
-  for (int body = 0; body < static_cast<int>(masses_.size()); ++body)
-    if (masses_[at(body)].inverse > 0) work_out(body);
-  return residual();
-}
-
-template <class Real>
-void Rows<Real>::join_rows() {
-  if (!start_of_.empty()) return;
-  start_of_.assign(masses_.size() + 1, 0);
-  for (const Row& row : rows_) {
-    ++start_of_[at(row.a) + 1];
-    ++start_of_[at(row.b) + 1];
-  }
-  for (std::size_t i = 1; i < start_of_.size(); ++i) start_of_[i] += start_of_[i - 1];
-  row_of_.resize(at(start_of_.back()));
-  next_.assign(start_of_.begin(), start_of_.end() - 1);
-  for (int r = 0; r < rows(); ++r)
-    for (const int body : {rows_[at(r)].a, rows_[at(r)].b}) row_of_[at(next_[at(body)]++)] = r;
-}
-
-template <class Real>
-template <bool kVelocity>
-void Rows<Real>::spread(const CrowdOptions& options, int& sweeps) {
-  std::vector<Vec8>& y = kVelocity ? changes_ : displacements_;
-  const auto enough = static_cast<Real>(options.enough);
-  const auto farthest = static_cast<Real>(options.farthest * options.farthest);
-  const auto is_far = [&](int body) {
-    return y[at(body)].squaredNorm() * masses_[at(body)].reach > farthest;
-  };
-  unsaid_.assign(y.size(), 0);
-  for (int pass = 0; pass < options.most_passes && !waiting_.empty(); ++pass) {
-    ++sweeps;
-    next_.clear();
-    for (const int r : waiting_) is_waiting_[at(r)] = 0;
-    for (const int r : waiting_) {
-      Row& row = rows_[at(r)];
-      const Line& line = lines_[at(r)];
-      Real& impulse = kVelocity ? row.impulse : row.push;
-      const Real w = along(line, row, y) + (kVelocity ? row.allowed : row.room);
-      const Real by = std::max(-impulse, -w);
-      if (by == 0) continue;
-      // Where rows contradict each other, displacements would grow from pass to pass.
-      if (!kVelocity && by > 0 && (is_far(row.a) || is_far(row.b))) continue;
-      apply(line, row, by, y);
-      impulse += by;
-      for (const int body : {row.a, row.b}) {
-        if (masses_[at(body)].inverse == 0) continue;
-        touch(body);
-        Real& unsaid = unsaid_[at(body)];  // what its other rows have not heard of yet
-        unsaid += row.root * std::abs(by);
-        if (unsaid <= enough) continue;
-        unsaid = 0;
-        for (int k = start_of_[at(body)]; k < start_of_[at(body) + 1]; ++k) {
-          const int other = row_of_[at(k)];
-          if (other == r || is_waiting_[at(other)]) continue;
-          is_waiting_[at(other)] = 1;
-          next_.push_back(other);
+    for (std::size_t next = 0; next < waiting.size(); ++next) {
+      const int i = waiting[next];
+      waits[at(i)] = 0;
+      const Candidate& pair = courses_.candidates[at(i)];
+      const double a = shares_[at(pair.a)], b = shares_[at(pair.b)];
+      take(pair, floor);
+      for (const int member : {pair.a, pair.b}) {
+        if (shares_[at(member)] == (member == pair.a ? a : b)) continue;
+        for (const int other : pairs_of_[at(member)]) {
+          if (other == i || waits[at(other)]) continue;
+          waits[at(other)] = 1;
+          waiting.push_back(other);
         }
       }
     }
-    waiting_.swap(next_);
+    for (int i = 0; i < static_cast<int>(shares_.size()); ++i) courses_.tracks[at(i)] = scaled(i);
   }
-  for (const int r : waiting_) is_waiting_[at(r)] = 0;
-  waiting_.clear();
-}
 
-template <class Real>
-void Rows<Real>::relax(std::span<const int> from, const CrowdOptions& options, int& sweeps) {
-  join_rows();
-  is_waiting_.assign(rows_.size(), 0);
-  waiting_.assign(from.begin(), from.end());
-  for (const int body : touched_)
-    waiting_.insert(waiting_.end(), row_of_.begin() + start_of_[at(body)],
-                    row_of_.begin() + start_of_[at(body) + 1]);
-  spread<true>(options, sweeps);
-  for (const int body : touched_) work_out(body);
-}
-
-template <class Real>
-void Rows<Real>::displace(std::span<const double> slack, const CrowdOptions& options, int& sweeps) {
-  join_rows();
-  is_waiting_.assign(rows_.size(), 0);
-  waiting_.clear();
-  for (int r = 0; r < rows(); ++r) {
-    Row& row = rows_[at(r)];
-    row.room = static_cast<Real>(slack[at(r)]) / row.root - along(lines_[at(r)], row, displacements_);
-    if (slack[at(r)] < 0) waiting_.push_back(r);
+ private:
+  Track scaled(int member) const {
+    const Track& track = courses_.tracks[at(member)];
+    const double share = shares_[at(member)];
+    if (share == 1) return track;
+    return straight_track(courses_.members[at(member)].state, share * track.velocity, share * track.spin,
+                          track.reach, courses_.length());
   }
-  spread<false>(options, sweeps);
+
+  // Lowers the shares of the two until their paths are clear: the larger one first, at most to the smaller; then both alike,
+  // since together they move as they would, but slower.
+  void take(const Candidate& pair, double floor) {
+    const bool dynamic_a = courses_.members[at(pair.a)].dynamic,
+               dynamic_b = courses_.members[at(pair.b)].dynamic;
+    double &share_a = shares_[at(pair.a)], &share_b = shares_[at(pair.b)];
+    for (;;) {
+      const PathVerdict verdict =
+          courses_.check(world_, pair, scaled(pair.a), scaled(pair.b),
+                         {.need = floor, .most_pairs = kMostPairs, .by_planes = true});
+      if (verdict.clear) return;
+      const double part = kOfFree * verdict.time / courses_.length();
+      const auto lower = [&](double share, double least) {
+        const double lowered = std::max(part * share, least);
+        return lowered < kLeastShare ? 0 : lowered;
+      };
+      if (dynamic_a && dynamic_b && share_a != share_b) {
+        double& larger = share_a > share_b ? share_a : share_b;
+        larger = lower(larger, std::min(share_a, share_b));
+        continue;
+      }
+      const double before_a = share_a, before_b = share_b;
+      if (dynamic_a) share_a = lower(share_a, 0);
+      if (dynamic_b) share_b = lower(share_b, 0);
+      if (share_a != before_a || share_b != before_b) continue;
+      for (const int member : {pair.a, pair.b})  // they stand, and are driven into
+        if (!courses_.members[at(member)].dynamic && courses_.tracks[at(member)].moves)
+          blocked_.push_back(courses_.members[at(member)].number);
+      return;
+    }
+  }
+
+  const world::World& world_;
+  Courses& courses_;
+  std::vector<double>& shares_;
+  std::vector<int>& blocked_;
+  std::vector<std::vector<int>> pairs_of_;
+};
+
+}  // namespace
+
+Planned CrowdPlanner::make(const world::World& world, std::span<const Member> members, double now,
+                           double length, const CrowdOptions& options) {
+  options_ = options;
+  rows_.clear();
+  late_.clear();
+  first_row_.clear();
+  blocked_.clear();
+  lost_ = 0;
+  shortened_ = 0;
+  sweeps_.clear();
+  courses_.start(world, members, now, length);
+  courses_.find(world, true);
+  add_bodies();
+  for (int i = 0; i < static_cast<int>(courses_.candidates.size()); ++i) {
+    const int count = static_cast<int>(courses_.candidates[at(i)].contacts->points.size());
+    for (int place = 0; place < count; ++place) add_row(world, i, place, false);
+  }
+  swept_ = sweeps_.run(std::max(options_.sweeps, options_.visits / (1 + rows())));
+  find_paths(world);
+  shares_.assign(courses_.members.size(), 1);
+  Shortening(world, courses_, shares_, blocked_).run(kFloor * contacts_.margin());
+  for (std::size_t i = 0; i < shares_.size(); ++i) {
+    if (shares_[i] == 1) continue;
+    ++shortened_;
+    lost_ += (1 - shares_[i]) * courses_.members[i].state.mass * velocities_[i].linear.norm();
+  }
+  drop_what_acts_on_air();
+  return take(world);
 }
 
-template <class Real>
-typename Rows<Real>::Twist Rows<Real>::displacement(int body) const {
-  const Eigen::Matrix<double, 8, 1> y = displacements_[at(body)].template cast<double>();
-  const Mass& mass = masses_[at(body)];
-  return {mass.root.cwiseProduct(y.template head<3>()), mass.turn_root * y.template segment<3>(3)};
+double CrowdPlanner::smallest_gap() const {
+  double gap = std::numeric_limits<double>::infinity();
+  for (const Candidate& pair : courses_.candidates)
+    if (pair.contacts->gap <= contacts_.margin()) gap = std::min(gap, pair.contacts->gap);
+  return gap;
 }
 
-template <class Real>
-void Rows<Real>::forget_displacements() {
-  std::fill(displacements_.begin(), displacements_.end(), Vec8(Vec8::Zero()));
-  for (Row& row : rows_) row.push = 0;
+// Members that the sweeps have not heard of.
+void CrowdPlanner::add_bodies() {
+  for (std::size_t i = at(sweeps_.bodies()); i < courses_.members.size(); ++i) {
+    const Twist &mean = courses_.drift[i], &more = courses_.last[i];
+    sweeps_.add_body(courses_.members[i].state, {mean.linear + more.linear, mean.angular + more.angular},
+                     mean);
+  }
 }
 
-template <class Real>
-std::vector<int> Rows<Real>::take_touched() {
-  for (const int body : touched_) is_touched_[at(body)] = 0;
-  return std::exchange(touched_, {});
+lcp::Contact CrowdPlanner::contact_of(const world::World& world, const Row& row) const {
+  const Candidate& pair = courses_.candidates[at(row.pair)];
+  const Pose &a = courses_.tracks[at(pair.a)].start, &b = courses_.tracks[at(pair.b)].start;
+  const ContactPoint& point = point_of(row);
+  return {pair.a,
+          pair.b,
+          point.middle(a, b),
+          point.normal_at(a, b),
+          point.gap_at(a, b),
+          0,
+          world.turns(courses_.members[at(pair.a)].number),
+          world.turns(courses_.members[at(pair.b)].number)};
 }
 
-template class Rows<float>;
-template class Rows<double>;
+int CrowdPlanner::add_row(const world::World& world, int candidate, int place, bool late) {
+  first_row_.resize(courses_.candidates.size(), -1);
+  Row row{candidate, place, first_row_[at(candidate)], 0, late, late};
+  const lcp::Contact contact = contact_of(world, row);
+  const double margin = contacts_.margin(), length = courses_.length();
+  row.arrives = late || contact.gap > margin;
+  const double guess = late ? 0 : point_of(row).force * length;
+  const int number =
+      sweeps_.add(contact, std::max(0.0, contact.gap - 0.5 * margin) / length,
+                  (contact.gap - wanted_gap(contact.gap, margin)) / length, guess, 0.5 * guess);
+  row.before = sweeps_.start_speed(number);
+  first_row_[at(candidate)] = number;
+  rows_.push_back(row);
+  return number;
+}
+
+// Step 2.
+void CrowdPlanner::find_paths(const world::World& world) {
+  const double floor = kFloor * contacts_.margin();
+  for (int round = 0;; ++round) {
+    sweeps_.work_out(velocities_, paths_);
+    for (std::size_t i = 0; i < paths_.size(); ++i) courses_.go(static_cast<int>(i), paths_[i]);
+    courses_.find(world, true);
+    add_bodies();
+    const PathOptions options{.need = floor, .most_pairs = kMostPairs, .by_planes = true, .whole = true};
+    const bool clear = courses_.prove(world, [&](const Candidate&) { return options; });
+    if (clear || round == options_.rounds) return;
+    for (int i = 0; i < static_cast<int>(courses_.candidates.size()); ++i)
+      if (!courses_.candidates[at(i)].clear) look_again(world, i);
+    swept_ += sweeps_.run(std::max(options_.path_sweeps, options_.visits / (1 + rows())));
+  }
+}
+
+// Rows of a pair whose paths are not clear: with the gaps at the end as they will be, and with all points that it has there.
+void CrowdPlanner::look_again(const world::World& world, int candidate) {
+  const Candidate pair = courses_.candidates[at(candidate)];
+  const Track &a = courses_.tracks[at(pair.a)], &b = courses_.tracks[at(pair.b)];
+  const double rest = 0.5 * contacts_.margin();
+  const auto correct = [&](int row) {
+    const double gap = point_of(rows_[at(row)]).gap_at(a.end, b.end);
+    sweeps_.set_room(row, (gap - rest) / courses_.length() - sweeps_.path_speed(row));
+  };
+  first_row_.resize(courses_.candidates.size(), -1);
+  for (int row = first_row_[at(candidate)]; row >= 0; row = rows_[at(row)].next) correct(row);
+  double gap = 0;
+  for (const ContactPoint& point : contacts_.points_at(world, *pair.contacts, a.end, b.end, gap)) {
+    bool known = false;
+    for (int row = first_row_[at(candidate)]; row >= 0 && !known; row = rows_[at(row)].next)
+      known = point_of(rows_[at(row)]).is_same(point, contacts_.margin());
+    if (known) continue;
+    late_.push_back(point);
+    correct(add_row(world, candidate, static_cast<int>(late_.size()) - 1, true));
+  }
+}
+
+// An impulse at the end of a path needs a contact there.
+void CrowdPlanner::drop_what_acts_on_air() {
+  constexpr int kMostTimes = 3, kSweeps = 4;
+  for (int times = 0; times < kMostTimes; ++times) {
+    bool any = false;
+    for (int i = 0; i < rows(); ++i) {
+      const Row& row = rows_[at(i)];
+      if (!row.arrives || !(sweeps_.impulse(i) > 0)) continue;
+      const Candidate& pair = courses_.candidates[at(row.pair)];
+      const double gap =
+          point_of(row).gap_at(courses_.tracks[at(pair.a)].end, courses_.tracks[at(pair.b)].end);
+      if (gap <= contacts_.margin()) continue;
+      sweeps_.drop(i);
+      any = true;
+    }
+    if (!any) break;
+    if (times + 1 < kMostTimes) swept_ += sweeps_.run_velocities(kSweeps);
+  }
+  std::vector<Twist> paths;
+  sweeps_.work_out(velocities_, paths);
+}
+
+// What bounces gives back what its restitution says, with the largest factor <= 1 for all with which this takes no more energy
+// than the impulses gave (see impact_law.hpp).
+void CrowdPlanner::give_back(const world::World& world, std::vector<RigidBody>& bodies) {
+  back_.assign(rows_.size(), 0);
+  bool any = false;
+  for (int i = 0; i < rows(); ++i) {
+    const Row& row = rows_[at(i)];
+    const PairContacts& pair = *courses_.candidates[at(row.pair)].contacts;
+    if (row.before >= -contacts_.margin() / options_.frame || point_of(row).lasts) continue;
+    back_[at(i)] = sweeps_.impulse(i) * world.restitution_of(pair.a, pair.b);
+    any = any || back_[at(i)] > 0;
+  }
+  if (!any) return;
+  std::vector<RigidBody> bounced = bodies;
+  for (int i = 0; i < rows(); ++i)
+    if (back_[at(i)] > 0) lcp::apply_impulse(bounced, contact_of(world, rows_[at(i)]), back_[at(i)]);
+  double gave = 0, takes = 0;  // z'Az and r'Ar, by what the impulses do to the velocities
+  for (int i = 0; i < rows(); ++i) {
+    const double z = sweeps_.impulse(i);
+    if (!(z > 0)) continue;
+    const lcp::Contact contact = contact_of(world, rows_[at(i)]);
+    const double end = lcp::contact_velocity(bodies, contact);
+    gave += z * (end - rows_[at(i)].before);
+    takes += back_[at(i)] * (lcp::contact_velocity(bounced, contact) - end);
+  }
+  const double cap = takes > gave ? std::sqrt(std::max(0.0, gave) / takes) : 1;
+  for (int i = 0; i < rows(); ++i) {
+    back_[at(i)] *= cap;
+    if (back_[at(i)] > 0) lcp::apply_impulse(bodies, contact_of(world, rows_[at(i)]), back_[at(i)]);
+  }
+}
+
+// For the next plan's guess; and which contacts last: where something pushes, all points.
+void CrowdPlanner::remember() const {
+  std::vector<char> pushes(courses_.candidates.size(), 0);
+  for (int i = 0; i < rows(); ++i)
+    pushes[at(rows_[at(i)].pair)] |= sweeps_.impulse(i) > 0 && !rows_[at(i)].arrives;
+  for (int i = 0; i < rows(); ++i) {
+    const Row& row = rows_[at(i)];
+    if (row.late) continue;
+    ContactPoint& point = courses_.candidates[at(row.pair)].contacts->points[at(row.place)];
+    point.force = sweeps_.impulse(i) / courses_.length();
+    point.lasts = pushes[at(row.pair)] && !row.arrives;
+  }
+}
+
+// All impulses act at the end.
+Planned CrowdPlanner::take(const world::World& world) {
+  const std::vector<RigidBody> swept = courses_.with(velocities_);
+  std::vector<RigidBody> bounced = swept;
+  give_back(world, bounced);
+  remember();
+  Planned result;
+  for (int i = 0; i < rows(); ++i) {
+    const Row& row = rows_[at(i)];
+    const Candidate& pair = courses_.candidates[at(row.pair)];
+    const double z = sweeps_.impulse(i);
+    if (!(z > 0)) continue;
+    ++result.pushing;
+    const bool driven = world.carries(pair.contacts->a) || world.carries(pair.contacts->b);
+    if (!driven && !options_.told) continue;
+    PlannedRow told;
+    told.contact = contact_of(world, row);
+    if (driven) result.kinematic_work += lcp::kinematic_work(swept, told.contact, z + back_[at(i)]);
+    if (!options_.told) continue;
+    told.impulse = z;
+    told.back = back_[at(i)];
+    told.before = row.before;
+    told.after = lcp::contact_velocity(bounced, told.contact);
+    told.key = point_of(row).key;
+    told.arrives = row.arrives;
+    if (row.arrives) {
+      const Track &a = courses_.tracks[at(pair.a)], &b = courses_.tracks[at(pair.b)];
+      told.contact.gap = point_of(row).gap_at(a.end, b.end);
+      told.contact.point = point_of(row).middle(a.end, b.end);
+    }
+    told.contact.body_a = pair.contacts->a;
+    told.contact.body_b = pair.contacts->b;
+    result.rows.push_back(told);
+  }
+  double gained = -result.kinematic_work, size = 0;
+  for (std::size_t i = 0; i < swept.size(); ++i) {
+    const Member& member = courses_.members[i];
+    if (!member.dynamic) continue;
+    const Track& track = courses_.tracks[i];
+    const Twist free{courses_.drift[i].linear + courses_.last[i].linear,
+                     courses_.drift[i].angular + courses_.last[i].angular};
+    const double share = shares_[i];  // of what it has at the end, too
+    result.bodies.push_back(member.number);
+    result.courses.push_back(course_of(member, {track.velocity, track.spin}, free, courses_.length()));
+    result.arrivals.push_back(
+        {share * bounced[i].velocity - free.linear, share * bounced[i].spin - free.angular});
+    const double before = member.state.kinetic_energy(), slow = contacts_.margin() / courses_.length();
+    gained += share * share * bounced[i].kinetic_energy() - before;
+    if (world.effects.gravity)
+      gained -= member.state.mass * world.effects.gravity->dot(track.end.position - track.start.position);
+    size += before + 0.5 * member.state.mass * slow * slow;
+  }
+  gains_ = gained > kMostGained * size * courses_.length() / options_.frame;
+  return result;
+}
 
 }  // namespace fc::resting

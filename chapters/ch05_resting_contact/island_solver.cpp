@@ -1,64 +1,82 @@
 #include "ch05_resting_contact/island_solver.hpp"
 
+#include <algorithm>
+#include <vector>
+
 #include "ch03_impulse_lcp/delassus.hpp"
 #include "ch03_impulse_lcp/impact.hpp"
 #include "ch03_impulse_lcp/solver.hpp"
 
 namespace fc::resting {
+namespace {
+
+// m/s, the fastest of the points of contact, on either body.
+double fastest(std::span<const RigidBody> bodies, std::span<const lcp::Contact> contacts) {
+  double speed = 0;
+  for (const lcp::Contact& c : contacts)
+    for (const int body : {c.body_a, c.body_b})
+      speed = std::max(speed, bodies[at(body)].velocity_at(c.point).norm());
+  return speed;
+}
+
+bool any_driven(std::span<const RigidBody> bodies) {
+  return std::any_of(bodies.begin(), bodies.end(), [](const RigidBody& body) {
+    return body.is_static() && !(body.velocity.isZero(0) && body.spin.isZero(0));
+  });
+}
+
+}  // namespace
+
+// What Dantzig's method cannot solve because of rounding (many rows that say nearly the same), sweeps can, nearly.
+void IslandSolver::sweep(std::span<const RigidBody> bodies, std::span<const lcp::Contact> contacts,
+                         std::span<const double> allowed, std::span<const double> z, lcp::LcpResult& result) {
+  constexpr int kSweeps = 1000;
+  constexpr double kAccepted = 1e-3;
+  sweeps_.clear();
+  for (const RigidBody& body : bodies) {
+    const Twist now{body.velocity, body.spin};
+    sweeps_.add_body(body, now, now);
+  }
+  for (std::size_t i = 0; i < contacts.size(); ++i) sweeps_.add(contacts[i], allowed[i], 0, z[i], 0);
+  sweeps_.run(1);
+  sweeps_.run_velocities(kSweeps);
+  result.residual = sweeps_.residual();
+  if (!(result.residual <= kAccepted)) return;
+  result.status = lcp::Status::solved;
+  result.z.resize(static_cast<Eigen::Index>(contacts.size()));
+  for (int i = 0; i < sweeps_.rows(); ++i) result.z[i] = sweeps_.impulse(i);
+}
+
 IslandResult IslandSolver::solve(std::span<RigidBody> bodies, std::span<const lcp::Contact> contacts,
                                  std::span<const double> allowed, std::span<double> z,
                                  const IslandOptions& options) {
-  if (options.chosen) return solve_dense(bodies, contacts, allowed, z, options.chosen);
-  if (static_cast<int>(contacts.size()) <= options.most_dense_rows) {
-    const IslandResult dense = solve_dense(bodies, contacts, allowed, z);
-    if (dense.solved) return dense;
-  }
-  return solve_sparse(bodies, contacts, allowed, z, options);
-}
-
-IslandResult IslandSolver::solve_dense(std::span<RigidBody> bodies, std::span<const lcp::Contact> contacts,
-                                       std::span<const double> allowed, std::span<double> z,
-                                       const std::optional<SolverSpec>& chosen) {
+  constexpr double kMostLeverage = 100;
   lcp::ImpactProblem problem = lcp::assemble(bodies, contacts);
   const auto n = static_cast<Eigen::Index>(contacts.size());
-  for (Eigen::Index i = 0; i < n; ++i) problem.b[i] += allowed[static_cast<std::size_t>(i)];
+  problem.b += Eigen::Map<const VecX>(allowed.data(), n);
   const lcp::Lcp rows{problem.A, problem.b};
   const VecX guess = Eigen::Map<const VecX>(z.data(), n);
   const VecX* start = guess.maxCoeff() > 0 ? &guess : nullptr;
   lcp::LcpResult result;
-  if (chosen)
-    result = lcp::solve(rows, lcp::method_named(chosen->method),
-                        {.limit = chosen->limit, .tolerance = chosen->tolerance, .start = start});
-  else
+  if (options.chosen) {
+    const SolverSpec& chosen = *options.chosen;
+    result = lcp::solve(rows, lcp::method_named(chosen.method),
+                        {.limit = chosen.limit, .tolerance = chosen.tolerance, .start = start});
+  } else {
     dantzig_.solve(rows, {.start = start}, result);
-  const int counted = chosen ? result.pivots : 0;
-  if (result.status != lcp::Status::solved) return {false, result.residual, counted, result.status};
-  for (Eigen::Index i = 0; i < n; ++i) {
-    z[static_cast<std::size_t>(i)] = result.z[i];
-    if (result.z[i] > 0) lcp::apply_impulse(bodies, contacts[static_cast<std::size_t>(i)], result.z[i]);
   }
-  return {true, result.residual, counted, result.status};
-}
-
-IslandResult IslandSolver::solve_sparse(std::span<RigidBody> bodies, std::span<const lcp::Contact> contacts,
-                                        std::span<const double> allowed, std::span<double> z,
-                                        const IslandOptions& options) {
-  rows_.begin(bodies);
-  for (std::size_t i = 0; i < contacts.size(); ++i) rows_.add(contacts[i], allowed[i], z[i]);
-  CrowdOptions sweeps;
-  sweeps.most_sweeps = options.most_sweeps;
-  sweeps.residual = options.residual;
-  IslandResult result;
-  result.residual = rows_.solve(sweeps, result.sweeps);
-  result.solved = result.residual <= options.accepted;
-  if (!result.solved) return result;
-  for (std::size_t i = 0; i < contacts.size(); ++i) z[i] = rows_.impulse(static_cast<int>(i));
-  for (std::size_t k = 0; k < bodies.size(); ++k) {
-    if (bodies[k].is_static()) continue;
-    bodies[k].velocity = rows_.velocity(static_cast<int>(k)).linear;
-    bodies[k].spin = rows_.velocity(static_cast<int>(k)).angular;
+  if (result.status != lcp::Status::solved && !options.chosen) sweep(bodies, contacts, allowed, z, result);
+  const int steps = options.chosen ? result.pivots : 0;
+  if (result.status != lcp::Status::solved) return {false, result.residual, steps, result.status};
+  const std::vector<RigidBody> before(bodies.begin(), bodies.end());
+  for (Eigen::Index i = 0; i < n; ++i)
+    if (result.z[i] > 0) lcp::apply_impulse(bodies, contacts[at(i)], result.z[i]);
+  if (any_driven(bodies) && fastest(bodies, contacts) > kMostLeverage * fastest(before, contacts)) {
+    std::copy(before.begin(), before.end(), bodies.begin());
+    return {false, result.residual, steps, lcp::Status::limit};
   }
-  return result;
+  Eigen::Map<VecX>(z.data(), n) = result.z;
+  return {true, result.residual, steps, result.status};
 }
 
 }  // namespace fc::resting

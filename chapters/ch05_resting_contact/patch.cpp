@@ -120,6 +120,147 @@ struct Plane {
   double height(const Corner& c) const { return x * c.x + y * c.y + constant; }
 };
 
+// A body of the pair, and the face that it turns towards the other one.
+struct Facing {
+  const PatchSide& side;
+  Mat3 rotation, to_body;  // body axes to world axes, and back
+  Vec3 offset;             // m, from A's centre
+  ca::Convex core;
+  hulls::Outline outline;  // if it is curved
+  int face = -1;           // -1: it has none
+
+  // direction: unit, world, out of the body.
+  Facing(const PatchSide& its_side, const Mat3& its_rotation, const Vec3& its_offset, const Vec3& direction)
+      : side(its_side),
+        rotation(its_rotation),
+        to_body(its_rotation.transpose()),
+        offset(its_offset),
+        core(its_side.model.leaf(0)),
+        face(best_face(its_side.facets, to_body * direction)) {
+    if (side.model.curved()) outline = hulls::outline_of(side.model, to_body * direction);
+    if (outline.count > 1) face = outline.id;
+  }
+  Vec3 normal() const {  // unit, world, outward
+    if (side.model.curved()) return rotation * outline.normal;
+    return rotation * side.facets.normals[static_cast<std::size_t>(face)];
+  }
+  // Whether a plane can turn with the face. What is round rolls out of its plane.
+  bool has_plane() const { return face >= 0 && (!side.model.curved() || outline.count > 2); }
+  void project_to(const Frame& frame, const Vec3& direction, bool reverse, Polygon& polygon) const {
+    if (side.model.curved())
+      project(hulls::outline_of(side.model, to_body * direction), rotation, offset, frame, reverse, polygon);
+    else
+      project(side, face, rotation, offset, frame, reverse && face >= 0, polygon);
+  }
+};
+
+// Fills a patch whose plane is known.
+struct PatchPoints {
+  const Facing &a, &b;
+  Frame frame;
+  double far, radii, same;
+  double least;  // m, of the points' gaps
+  Patch& patch;
+
+  PatchPoints(const Facing& facing_a, const Facing& facing_b, double farthest, Patch& filled)
+      : a(facing_a),
+        b(facing_b),
+        frame(filled.normal),
+        far(farthest),
+        radii(facing_a.side.model.radius + facing_b.side.model.radius),
+        same(kSame * (facing_a.side.model.reach + facing_b.side.model.reach)),
+        least(farthest),
+        patch(filled) {}
+
+  // Points of the cores, m, from A's centre.
+  void add(const Vec3& core_point_a, const Vec3& core_point_b, double gap, std::uint64_t key) {
+    if (gap > far || patch.count == Patch::kMost) return;
+    PatchPoint point;
+    point.point_a = a.to_body * (core_point_a + a.side.model.radius * patch.normal);
+    point.point_b = b.to_body * (core_point_b - b.side.model.radius * patch.normal - b.offset);
+    point.gap = gap;
+    point.key = key;
+    for (int i = 0; i < patch.count; ++i)
+      if ((patch.points[static_cast<std::size_t>(i)].point_a - point.point_a).squaredNorm() <= same * same)
+        return;
+    patch.points[static_cast<std::size_t>(patch.count++)] = point;
+  }
+  void add_at(double x, double y, double height_a, double height_b, std::uint64_t key) {
+    const double gap = height_b - height_a - radii;
+    least = std::min(least, gap);
+    add(frame.at(x, y, height_a), frame.at(x, y, height_b), gap, key);
+  }
+
+  // Two faces, or a face and less: the one with fewer corners is cut by the other one's sides.
+  void cut_faces(const Polygon& first, const Polygon& second) {
+    static thread_local Polygon shared, other;
+    const bool swap = second.count < first.count;
+    const Polygon &subject = swap ? second : first, &cutter = swap ? first : second;
+    const Plane plane((swap ? a : b).normal(), cutter.corners[0], frame);
+    shared = subject;
+    for (int k = 0; k < cutter.count; ++k) {
+      cut(shared, cutter.corners[static_cast<std::size_t>(k)],
+          cutter.corners[static_cast<std::size_t>(k + 1 == cutter.count ? 0 : k + 1)], kMostCorners + k,
+          other);
+      std::swap(shared, other);
+    }
+    const auto bits = [](int value) { return static_cast<std::uint64_t>(value + 1) & 0xffff; };
+    for (int k = 0; k < shared.count; ++k) {
+      const Corner& c = shared.corners[static_cast<std::size_t>(k)];
+      const double across = plane.height(c);
+      add_at(c.x, c.y, swap ? across : c.height, swap ? c.height : across,
+             bits(a.face) << 48 | bits(b.face) << 32 | bits(c.line_in) << 16 | bits(c.line_out));
+    }
+  }
+
+  // Two segments that lie along each other: the ends of what they share.
+  void join_segments(const Polygon& first, const Polygon& second) {
+    const auto &p = first.corners, &q = second.corners;
+    const double dx = p[1].x - p[0].x, dy = p[1].y - p[0].y, length = std::hypot(dx, dy);
+    const double ex = q[1].x - q[0].x, ey = q[1].y - q[0].y;
+    if (!(length > 0) || std::abs(dx * ey - dy * ex) > kParallel * length * std::hypot(ex, ey)) return;
+    const auto along = [&](const Corner& c) {
+      return ((c.x - p[0].x) * dx + (c.y - p[0].y) * dy) / (length * length);
+    };
+    const double s0 = along(q[0]), s1 = along(q[1]);
+    const double from = std::max(0.0, std::min(s0, s1)), to = std::min(1.0, std::max(s0, s1));
+    for (const double s : {from, to}) {
+      if (from > to) return;
+      const double t = s1 != s0 ? (s - s0) / (s1 - s0) : 0;
+      add_at(p[0].x + s * dx, p[0].y + s * dy, p[0].height + s * (p[1].height - p[0].height),
+             q[0].height + t * (q[1].height - q[0].height), s == from ? 1 : 2);
+    }
+  }
+
+  // They touch, to rounding, and have no nearest points: those farthest along the normal, brought over each other.
+  void bring_together() {
+    const Vec3 far_a = a.rotation * ca::support(a.core, a.to_body * patch.normal).point;
+    const Vec3 far_b = b.rotation * ca::support(b.core, -(b.to_body * patch.normal)).point + b.offset;
+    const Vec3 between = 0.5 * (far_a + far_b);
+    add(between + patch.normal.dot(far_a - between) * patch.normal,
+        between + patch.normal.dot(far_b - between) * patch.normal, patch.gap, PatchPoint::kBroughtTogether);
+  }
+};
+
+// The plane that was found, or a face's, if that parts the bodies as well up to the slack.
+void choose_plane(const Facing& a, const Facing& b, const ca::PairPose& pose, const ca::GjkResult& nearest,
+                  double slack, Patch& patch) {
+  patch.normal = nearest.normal;
+  patch.gap = nearest.lower;
+  patch.of_b = false;
+  double best = nearest.lower - slack;
+  for (const bool of_b : {false, true}) {
+    if (!(of_b ? b : a).has_plane()) continue;
+    const Vec3 normal = of_b ? Vec3(-b.normal()) : a.normal();
+    const double gap = ca::support_gap(a.core, b.core, pose, normal);
+    if (gap < best) continue;
+    best = gap;
+    patch.normal = normal;
+    patch.gap = gap;
+    patch.of_b = of_b;
+  }
+}
+
 }  // namespace
 
 Facets build_facets(const hulls::FeatureMesh& mesh) {
@@ -164,119 +305,25 @@ Facets build_facets(const hulls::FeatureMesh& mesh) {
   return facets;
 }
 
-void find_patch(const PatchSide& a, const PatchSide& b, const ca::PairPose& pose,
+void find_patch(const PatchSide& side_a, const PatchSide& side_b, const ca::PairPose& pose,
                 const ca::GjkResult& nearest, double slack, double far, Patch& patch) {
-  patch.normal = nearest.normal;
-  patch.gap = nearest.lower;
-  patch.of_b = false;
+  const Facing a(side_a, pose.rotation_a, Vec3::Zero(), nearest.normal),
+      b(side_b, pose.rotation_b, pose.offset_world, -nearest.normal);
   patch.count = 0;
-  const Mat3 to_a = pose.rotation_a.transpose(), to_b = pose.rotation_b.transpose();
-  const bool curved_a = a.model.curved(), curved_b = b.model.curved();
-  int face_a = best_face(a.facets, to_a * nearest.normal);
-  int face_b = best_face(b.facets, -(to_b * nearest.normal));
-  hulls::Outline outline_a, outline_b;
-  if (curved_a) outline_a = hulls::outline_of(a.model, to_a * nearest.normal);
-  if (curved_b) outline_b = hulls::outline_of(b.model, -(to_b * nearest.normal));
-  if (outline_a.count > 1) face_a = outline_a.id;
-  if (outline_b.count > 1) face_b = outline_b.id;
-  const auto normal_of = [&](bool of_b) -> Vec3 {  // of the face, outward, world
-    const int face = of_b ? face_b : face_a;
-    if (of_b ? curved_b : curved_a)
-      return of_b ? pose.rotation_b * outline_b.normal : pose.rotation_a * outline_a.normal;
-    return of_b ? pose.rotation_b * b.facets.normals[static_cast<std::size_t>(face)]
-                : pose.rotation_a * a.facets.normals[static_cast<std::size_t>(face)];
-  };
-  const ca::Convex core_a = a.model.leaf(0), core_b = b.model.leaf(0);
-  double best = nearest.lower - slack;
-  for (const bool of_b : {false, true}) {
-    const int face = of_b ? face_b : face_a;
-    if (face < 0) continue;
-    const Vec3 normal = of_b ? Vec3(-normal_of(of_b)) : normal_of(of_b);
-    const double gap = ca::support_gap(core_a, core_b, pose, normal);
-    if (gap < best) continue;
-    best = gap;
-    patch.normal = normal;
-    patch.gap = gap;
-    patch.of_b = of_b;
-  }
-
-  const Frame frame(patch.normal);
-  const double radii = a.model.radius + b.model.radius;
-  const double same = kSame * (a.model.reach + b.model.reach);
-  const auto add = [&](const Vec3& core_point_a, const Vec3& core_point_b, double gap, std::uint64_t key) {
-    if (gap > far || patch.count == Patch::kMost) return;
-    PatchPoint point;
-    point.point_a = to_a * (core_point_a + a.model.radius * patch.normal);
-    point.point_b = to_b * (core_point_b - b.model.radius * patch.normal - pose.offset_world);
-    point.gap = gap;
-    point.key = key;
-    for (int i = 0; i < patch.count; ++i)
-      if ((patch.points[static_cast<std::size_t>(i)].point_a - point.point_a).squaredNorm() <= same * same)
-        return;
-    patch.points[static_cast<std::size_t>(patch.count++)] = point;
-  };
-
-  static thread_local Polygon first, second, shared, other;
-  if (curved_a)
-    project(hulls::outline_of(a.model, to_a * patch.normal), pose.rotation_a, Vec3::Zero(), frame, false,
-            first);
-  else
-    project(a, face_a, pose.rotation_a, Vec3::Zero(), frame, false, first);
-  if (curved_b)
-    project(hulls::outline_of(b.model, -(to_b * patch.normal)), pose.rotation_b, pose.offset_world, frame,
-            true, second);
-  else
-    project(b, face_b, pose.rotation_b, pose.offset_world, frame, face_b >= 0, second);
-  double least = far;
-  // The one with fewer corners is cut by the other one's sides.
-  const bool swap = second.count < first.count;
-  const Polygon &subject = swap ? second : first, &cutter = swap ? first : second;
-  if (cutter.count > 2) {
-    const Plane plane(normal_of(!swap), cutter.corners[0], frame);
-    shared = subject;
-    for (int k = 0; k < cutter.count; ++k) {
-      cut(shared, cutter.corners[static_cast<std::size_t>(k)],
-          cutter.corners[static_cast<std::size_t>(k + 1 == cutter.count ? 0 : k + 1)], kMostCorners + k,
-          other);
-      std::swap(shared, other);
-    }
-    for (int k = 0; k < shared.count; ++k) {
-      const Corner& c = shared.corners[static_cast<std::size_t>(k)];
-      const double across = plane.height(c);
-      const double height_a = swap ? across : c.height, height_b = swap ? c.height : across;
-      const double gap = height_b - height_a - radii;
-      least = std::min(least, gap);
-      const auto bits = [](int value) { return static_cast<std::uint64_t>(value + 1) & 0xffff; };
-      add(frame.at(c.x, c.y, height_a), frame.at(c.x, c.y, height_b), gap,
-          bits(face_a) << 48 | bits(face_b) << 32 | bits(c.line_in) << 16 | bits(c.line_out));
-    }
-  } else if (first.count == 2 && second.count == 2) {
-    // Two segments that lie along each other: the ends of what they share.
-    const auto &p = first.corners, &q = second.corners;
-    const double dx = p[1].x - p[0].x, dy = p[1].y - p[0].y, length = std::hypot(dx, dy);
-    const double ex = q[1].x - q[0].x, ey = q[1].y - q[0].y;
-    if (length > 0 && std::abs(dx * ey - dy * ex) <= kParallel * length * std::hypot(ex, ey)) {
-      const auto along = [&](const Corner& c) {
-        return ((c.x - p[0].x) * dx + (c.y - p[0].y) * dy) / (length * length);
-      };
-      const double s0 = along(q[0]), s1 = along(q[1]);
-      const double from = std::max(0.0, std::min(s0, s1)), to = std::min(1.0, std::max(s0, s1));
-      for (const double s : {from, to}) {
-        if (from > to) break;
-        const double t = s1 != s0 ? (s - s0) / (s1 - s0) : 0;
-        const double height_a = p[0].height + s * (p[1].height - p[0].height);
-        const double height_b = q[0].height + t * (q[1].height - q[0].height);
-        const double gap = height_b - height_a - radii;
-        least = std::min(least, gap);
-        add(frame.at(p[0].x + s * dx, p[0].y + s * dy, height_a),
-            frame.at(p[0].x + s * dx, p[0].y + s * dy, height_b), gap, s == from ? 1 : 2);
-      }
-    }
-  }
+  choose_plane(a, b, pose, nearest, slack, patch);
+  static thread_local Polygon first, second;
+  PatchPoints points(a, b, far, patch);
+  a.project_to(points.frame, patch.normal, false, first);
+  b.project_to(points.frame, -patch.normal, true, second);
+  if (std::max(first.count, second.count) > 2)
+    points.cut_faces(first, second);
+  else if (first.count == 2 && second.count == 2)
+    points.join_segments(first, second);
   const bool has_witnesses = nearest.status != ca::GjkResult::Status::overlapping;
-  if (has_witnesses && (patch.count == 0 || least > nearest.lower + slack))
-    add(nearest.point_a - a.model.radius * nearest.normal, nearest.point_b + b.model.radius * nearest.normal,
-        std::max(patch.gap, nearest.lower), 3);
+  if (has_witnesses && (patch.count == 0 || points.least > nearest.lower + slack))
+    points.add(nearest.point_a - side_a.model.radius * nearest.normal,
+               nearest.point_b + side_b.model.radius * nearest.normal, std::max(patch.gap, nearest.lower), 3);
+  if (patch.count == 0) points.bring_together();
 }
 
 }  // namespace fc::resting

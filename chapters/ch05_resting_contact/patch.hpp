@@ -21,6 +21,7 @@ struct Facets {
 Facets build_facets(const hulls::FeatureMesh& mesh);
 
 struct PatchPoint {
+  static constexpr std::uint64_t kBroughtTogether = 4;  // key of a point where the two do not face each other
   Vec3 point_a = Vec3::Zero(), point_b = Vec3::Zero();  // m, on the surfaces, each in its body's axes
   double gap = 0;                                       // m, along the patch's normal
   std::uint64_t key = 0;  // which edges meet there: the same point has the same key in the next frame

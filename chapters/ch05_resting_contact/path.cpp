@@ -1,15 +1,42 @@
 #include "ch05_resting_contact/path.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 namespace fc::resting {
 namespace {
 
+// Intervals are halved down to this part of the whole.
+constexpr double kLeastStep = 1.0 / 64, kRoughStep = 1.0 / 32;  // the second if advancement follows
+
+// A plane between two convex bodies at one time (s), and the gap along it (m, certified).
+struct PlaneAt {
+  double time;
+  Pose a, b;
+  Vec3 normal;  // unit, from A to B
+  double gap;
+};
+
+// How somebody moves who goes with a body, or a plane.
+struct Moving {
+  Vec3 position, velocity, acceleration, spin;
+  double spin_rate, reach;
+
+  Moving(const Track& track, double time, const Pose& pose)
+      : position(pose.position),
+        velocity(track.velocity + time * track.acceleration),
+        acceleration(track.acceleration),
+        spin(track.spin),
+        spin_rate(track.spin_rate),
+        reach(track.reach) {}
+};
+
 // How much a point of `body` is accelerated at most, as seen by one who stands on `viewer` and turns with it
 // (m/s^2): p'' = a_p - w x (w x r) - 2 w x u, with r from the viewer's centre and u the velocity that it
 // sees.
-double bend_seen_from(const Track& viewer, const Track& body, double dt) {
-  const Vec3 apart = body.start.position - viewer.start.position, velocity = body.velocity - viewer.velocity;
+double bend_seen_from(const Moving& viewer, const Moving& body, double dt) {
+  const Vec3 apart = body.position - viewer.position, velocity = body.velocity - viewer.velocity;
   const double acceleration = (body.acceleration - viewer.acceleration).norm();
   const double turning = (body.spin - viewer.spin).norm(), w = viewer.spin_rate, speed = velocity.norm();
   const double bend = acceleration + turning * (w + body.spin_rate) * body.reach;
@@ -21,80 +48,146 @@ double bend_seen_from(const Track& viewer, const Track& body, double dt) {
 
 // The least that a function can be on [0, 1] that is `start` and `end` at its ends, and lies no more than
 // 4 sag x (1 - x) below the line between them.
+// ANCHOR: least
 double least_between(double start, double end, double sag) {
   const double slope = end - start - 4 * sag;  // at the start
   if (slope >= 0) return start;
   const double x = sag > 0 ? std::min(1.0, -slope / (8 * sag)) : 1.0;
   return start + x * (slope + 4 * sag * x);
 }
+// ANCHOR_END: least
 
-double bend_in_the_world(const Track& a, const Track& b) {
-  return (b.acceleration - a.acceleration).norm() + a.spin_rate * a.spin_rate * a.reach +
-         b.spin_rate * b.spin_rate * b.reach;
+// The gap that planes prove between two times; m.
+double least_gap(const ca::Convex& core_a, const ca::Convex& core_b, const Track& a, const Track& b,
+                 const PlaneAt& from, const PlaneAt& to, double enough) {
+  const double dt = to.time - from.time, share = dt * dt / 8;
+  const Moving moving_a(a, from.time, from.a), moving_b(b, from.time, from.b);
+  // One that turns evenly, as two edges do that lie across, and goes with A's centre.
+  Moving plane = moving_a;
+  const Vec3 across = from.normal.cross(to.normal);
+  const double sine = across.norm();
+  plane.spin_rate = std::atan2(sine, from.normal.dot(to.normal)) / dt;
+  plane.spin = sine > 0 ? Vec3(plane.spin_rate / sine * across) : Vec3(Vec3::Zero());
+  double best = least_between(
+      from.gap, to.gap, share * (bend_seen_from(plane, moving_a, dt) + bend_seen_from(plane, moving_b, dt)));
+  const auto at = [&](const PlaneAt& place, const Vec3& normal) {
+    return ca::support_gap(core_a, core_b, ca::PairPose(place.a, place.b), normal);
+  };
+  // Those that go with one of the bodies: the one at the start, and the one at the end.
+  for (const bool on_a : {true, false}) {
+    if (best >= enough) break;
+    const Mat3 turn = on_a ? Mat3(to.a.rotation * from.a.rotation.transpose())
+                           : Mat3(to.b.rotation * from.b.rotation.transpose());
+    const double sag =
+        share * (on_a ? bend_seen_from(moving_a, moving_b, dt) : bend_seen_from(moving_b, moving_a, dt));
+    best = std::max(best, least_between(from.gap, at(to, turn * from.normal), sag));
+    if (best < enough)
+      best = std::max(best, least_between(at(from, turn.transpose() * to.normal), to.gap, sag));
+  }
+  return best;
+}
+
+// Whether planes prove it; nothing if there is none to begin with.
+std::optional<PathVerdict> by_planes(const world::World& world, const Contacts& contacts, PairContacts& pair,
+                                     const Track& a, const Track& b, double dt, const PathOptions& options) {
+  const ca::Convex core_a = world.model_of(pair.a).leaf(0), core_b = world.model_of(pair.b).leaf(0);
+  const double need = options.need;
+  const auto best_at = [&](double time) {
+    const Pose pose_a = time == dt ? a.end : a.motion.pose_at(time),
+               pose_b = time == dt ? b.end : b.motion.pose_at(time);
+    const ca::GjkResult nearest = contacts.nearest(world, pair, ca::PairPose(pose_a, pose_b));
+    return PlaneAt{time, pose_a, pose_b, nearest.normal, nearest.lower};
+  };
+  PlaneAt here{0, a.start, b.start, pair.axis_at(a.start, b.start), pair.axis_gap};
+  if (here.gap < need) here = best_at(0);
+  if (here.gap < need) return {};
+  const PlaneAt end = best_at(dt);
+  if (end.gap < need && options.whole) return PathVerdict{false, dt};
+  double slack = std::numeric_limits<double>::infinity();
+  for (double step = dt; here.time < dt;) {
+    const double time = here.time + step;
+    const PlaneAt there = time > (1 - 1e-9) * dt ? end : best_at(time);
+    const double least = there.gap < need ? there.gap : least_gap(core_a, core_b, a, b, here, there, need);
+    if (least >= need) {
+      slack = std::min(slack, least - need);
+      here = there;
+      step = std::min(2 * step, dt - here.time);
+      continue;
+    }
+    step *= 0.5;
+    if (step < (options.by_planes ? kLeastStep : kRoughStep) * dt) return PathVerdict{false, here.time};
+  }
+  return PathVerdict{true, dt, slack};
 }
 
 }  // namespace
 
-Track track_of(const world::World& world, int body, const Pose& start, double dt) {
+Track straight_track(const RigidBody& start, const Vec3& velocity, const Vec3& spin, double reach,
+                     double dt) {
   Track track;
-  track.start = track.end = start;
-  track.reach = world.shapes[world.bodies[body].shape].reach;
-  track.moves = !world.stays(body);
-  if (!track.moves) return track;
-  const ca::Motion motion = world.motion(body, 0);
-  track.end = motion.pose_at(dt);
-  track.velocity = motion.velocity;
-  track.acceleration = motion.acceleration;
-  track.spin = motion.spin;
-  track.spin_rate = motion.spin_bound();
-  track.steady = motion.steady();
+  track.start = start.pose();
+  track.reach = reach;
+  track.velocity = velocity;
+  track.spin = spin;
+  track.spin_rate = spin.norm();
+  track.moves = !velocity.isZero(0) || track.spin_rate > 0;
+  RigidBody moving = start;
+  moving.velocity = velocity;
+  moving.spin = spin;
+  track.motion = ca::Motion(moving);
+  track.end = track.moves ? track.motion.pose_at(dt) : track.start;
   return track;
 }
 
-PathVerdict check_path(const world::World& world, const Shell& shell, ShellPair& pair, const Track& a,
-                       const Track& b, double dt, double need) {
+Track track_of(const world::World& world, int body, double now, double dt) {
+  Track track;
+  track.reach = world.shapes[world.bodies[body].shape].reach;
+  track.moves = !world.stays(body);
+  track.motion = world.motion(body, now);
+  track.start = track.end = {track.motion.rotation, track.motion.position};
+  if (!track.moves) return track;
+  track.end = track.motion.pose_at(dt);
+  track.velocity = track.motion.velocity;
+  track.acceleration = track.motion.acceleration;
+  track.spin = track.motion.spin;
+  track.spin_rate = track.motion.spin_bound();
+  track.steady = track.motion.steady();
+  return track;
+}
+
+PathVerdict check_path(const world::World& world, const Contacts& contacts, PairContacts& pair,
+                       const Track& a, const Track& b, double dt, const PathOptions& options) {
+  const double need = options.need;
   const bool steady = a.steady && b.steady;
   if (steady) {
     const double way =
         dt * ((b.velocity - a.velocity).norm() + 0.5 * dt * (b.acceleration - a.acceleration).norm() +
               a.spin_rate * a.reach + b.spin_rate * b.reach);
-    if (pair.gap - way >= need) return {true, dt};
+    if (pair.gap - way >= need) return {true, dt, pair.gap - way - need};
   }
-  const bool convex = shell.convex(world, pair);
-  if (convex && steady && pair.known) {
-    const double share = dt * dt / 8;
-    const auto from_a = [&] { return share * bend_seen_from(a, b, dt); };
-    const auto from_b = [&] { return share * bend_seen_from(b, a, dt); };
-    if (!pair.axis_known) pair.axis_gap = shell.axis_gap(world, pair, a.start, b.start);
+  if (steady && pair.known && Contacts::convex(world, pair)) {
+    if (!pair.axis_known) pair.axis_gap = contacts.axis_gap(world, pair, a.start, b.start);
     pair.axis_known = true;
-    if (pair.axis_gap >= need) {
-      const double end = shell.axis_gap(world, pair, a.end, b.end);
-      if (least_between(pair.axis_gap, end, pair.of_b ? from_b() : from_a()) >= need) return {true, dt};
+    if (pair.axis_gap >= need) {  // the plane that is known, without a search
+      const Moving moving_a(a, 0, a.start), moving_b(b, 0, b.start);
+      const double sag =
+          dt * dt / 8 *
+          (pair.of_b ? bend_seen_from(moving_b, moving_a, dt) : bend_seen_from(moving_a, moving_b, dt));
+      const double least = least_between(pair.axis_gap, contacts.axis_gap(world, pair, a.end, b.end), sag);
+      if (least >= need) return {true, dt, least - need};
     }
-    // The best plane at the end, carried back by either body, or by none.
-    const ca::PairPose at_start(a.start, b.start), at_end(a.end, b.end);
-    const ca::GjkResult nearest = shell.nearest(world, pair, at_end);
-    if (nearest.lower >= need) {
-      const ca::Convex core_a = world.model_of(pair.a).leaf(0), core_b = world.model_of(pair.b).leaf(0);
-      const auto proves = [&](const Vec3& normal, double bend) {
-        return least_between(ca::support_gap(core_a, core_b, at_start, normal), nearest.lower, bend) >= need;
-      };
-      if (proves(nearest.normal, share * bend_in_the_world(a, b)) ||
-          proves(a.start.rotation * (a.end.rotation.transpose() * nearest.normal), from_a()) ||
-          proves(b.start.rotation * (b.end.rotation.transpose() * nearest.normal), from_b()))
-        return {true, dt};
-    }
+    const std::optional<PathVerdict> verdict = by_planes(world, contacts, pair, a, b, dt, options);
+    if (verdict && (verdict->clear || options.by_planes)) return *verdict;
   }
-  hulls::ReachOptions options;
-  options.interval = dt;
-  options.tolerance = world.tolerance;
-  options.target = need;
-  options.slack = 0.25 * std::max(need, world.tolerance);
-  options.start = -1;
-  options.max_pairs = world.max_pairs;
-  const hulls::Reach reach =
-      hulls::first_reach(world.model_of(pair.a), world.motion(pair.a, 0), world.model_of(pair.b),
-                         world.motion(pair.b, 0), options, world.memory);
+  hulls::ReachOptions reaches;
+  reaches.interval = dt;
+  reaches.tolerance = world.tolerance;
+  reaches.target = need;
+  reaches.slack = 0.25 * std::max(need, world.tolerance);
+  reaches.start = -1;
+  reaches.max_pairs = std::min(world.max_pairs, options.most_pairs);
+  const hulls::Reach reach = hulls::first_reach(world.model_of(pair.a), a.motion, world.model_of(pair.b),
+                                                b.motion, reaches, world.memory);
   if (reach.status == hulls::Reach::Status::clear) return {true, dt};
   return {false, reach.time};
 }

@@ -1,7 +1,7 @@
 // Whether two bodies keep apart on their way through a frame.
 #pragma once
 
-#include "ch05_resting_contact/shell.hpp"
+#include "ch05_resting_contact/contacts.hpp"
 
 namespace fc::resting {
 
@@ -12,24 +12,38 @@ struct Track {
   double spin_rate = 0, reach = 0;                                                 // rad/s, m
   bool moves = false;
   bool steady = true;  // constant acceleration, constant spin
+  ca::Motion motion;
 };
 
-Track track_of(const world::World& world, int body, const Pose& start, double dt);
+// A body that goes straight on from a pose, with constant spin, for dt seconds.
+Track straight_track(const RigidBody& start, const Vec3& velocity, const Vec3& spin, double reach, double dt);
+// A body of the world as it moves from `now` on (s in the frame).
+Track track_of(const world::World& world, int body, double now, double dt);
 
 struct PathVerdict {
   bool clear = false;
-  double time = 0;  // s, not clear: when the gap has come down to about `need`
+  double time = 0;   // s, not clear: when the gap has come down to about `need`
+  double slack = 0;  // m, clear: by so much the gap is proved to stay above `need`
 };
 
-// Whether the gap stays at least `need` (m) for dt seconds; proved, or found to be reached. In this order:
+// How hard to try.
+struct PathOptions {
+  double need = 0;  // m
+  std::int64_t most_pairs =
+      std::numeric_limits<std::int64_t>::max();  // of nodes; and no more than the scene's limit
+  bool by_planes = false;  // of convex pairs: no advancement; the time is how far planes prove
+  bool whole = false;      // and if the end is not clear, that is all: the time is the whole
+};
+
+// Whether the gap stays at least `need` for dt seconds; proved, or found to be reached. In this order:
 //
 //   1. by the way     gap - dt |largest relative velocity of two points| >= need;
-//   2. by one plane   that turns with one of the bodies (or with none): if the gap along it is s_0 and s_1
-//                     at the ends of the frame, then at the part x of it the gap is at least
-//                     (1 - x) s_0 + x s_1 - k dt^2 x (1 - x) / 2, where k bounds how much the way of any
-//                     point is bent, as seen by that body;
+//   2. by planes      (convex pairs) that go with a body, or turn evenly from the best at the start to the best at the end: if
+//                     the gap along one is s_0 and s_1 at the ends of an interval dt, then at the part x of it the gap is at
+//                     least (1 - x) s_0 + x s_1 - k dt^2 x (1 - x) / 2, where k bounds how much the way of any point is bent,
+//                     as seen by who goes with the plane; intervals are halved where that is too little;
 //   3. by conservative advancement (chapter 2).
-PathVerdict check_path(const world::World& world, const Shell& shell, ShellPair& pair, const Track& a,
-                       const Track& b, double dt, double need);
+PathVerdict check_path(const world::World& world, const Contacts& contacts, PairContacts& pair,
+                       const Track& a, const Track& b, double dt, const PathOptions& options);
 
 }  // namespace fc::resting

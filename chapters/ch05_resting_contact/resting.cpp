@@ -1,349 +1,376 @@
 #include "ch05_resting_contact/resting.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "ch03_impulse_lcp/unsolved.hpp"
-#include "common/stopwatch.hpp"
+#include "ch05_resting_contact/sleeping.hpp"
 
 namespace fc::resting {
 namespace {
 
-// A contact with a gap of less than so many tolerances has no way left.
-constexpr double kNoWay = 2;
+// A body that has met others so often within one frame does not bounce any more until its end: the time between bounces
+// may shrink without end (compare the TC model, Luding and McNamara 1998).
+constexpr int kMostBounces = 64;
 
-// A body in contact whose points are slower than this part of the envelope in a frame stands still: below it
-// is round-off of impulses that cancel.
+// A plan is halved where its paths are not clear, down to this part of a frame.
+constexpr double kShortest = 1.0 / 4096;
+
+// So are plans of crowds with few rows, where paths would have to be shortened, down to this part.
+constexpr int kManyRows = 100;
+constexpr double kShortestOfCrowd = 1.0 / 512;
+
+// A plan that would leave less than this part of what is left of the frame takes it all.
+constexpr double kNearlyAll = 0.75;
+
+// A body in contact whose points are slower than this part of the margin in a frame stands still: below it is round-off of
+// impulses that cancel.
 constexpr double kStill = 1e-9;
+
+// What happens at the frame's end is told a little before it (of a frame): it belongs to this frame, whose velocities it makes.
+constexpr double kBeforeEnd = 1e-9;
+
+double told_at(double now, double dt) {
+  return std::min(now, (1 - kBeforeEnd) * dt);
+}
+
+double energy_of(const world::World& world, const RigidBody& state) {  // J
+  return state.kinetic_energy() -
+         (world.effects.gravity ? state.mass * world.effects.gravity->dot(state.position) : 0.0);
+}
+
+// It stands still until the frame's end.
+void stop(world::World& world, int kinematic, double now, double dt, world::StepReport& report) {
+  world.carry(kinematic, now, now);
+  world.bodies[static_cast<std::size_t>(kinematic)].held = true;
+  report.lost_time = std::max(report.lost_time, dt - now);
+}
 
 }  // namespace
 
 Resting::Resting(const Scene& scene, world::World& world, double dt, const RestOptions& options)
-    : shell_(world, envelope_of(scene, world)),
+    : contacts_(world, envelope_of(scene, world, dt)),
+      islands_(contacts_, world.bodies.size()),
+      maker_(contacts_),
+      crowd_planner_(contacts_),
       options_(options),
       frame_(dt),
       dt_(dt),
-      is_far_(world.bodies.size(), 0),
-      still_(world.bodies.size(), 0),
-      place_(world.bodies.size(), -1) {
+      meetings_(world.bodies.size(), 0),
+      try_length_(world.bodies.size(), std::numeric_limits<double>::infinity()),
+      energy_(world.bodies.size(), 0) {
   const SolverSpec usual;
   const SolverSpec& solver = world.solver;
   if (solver.method != usual.method || solver.limit != usual.limit || solver.tolerance != usual.tolerance) {
-    options_.small.chosen = solver;
-    options_.crowd = std::numeric_limits<int>::max();  // crowds are solved by sweeps of their own
+    options_.solver.chosen = solver;
+    options_.most_work = std::numeric_limits<double>::infinity();  // crowds are solved by sweeps of their own
   }
-  world.touch = shell_.envelope();
-  world.reserve = 0.5 * shell_.envelope();
+  world.reserve = 0.5 * envelope();
 }
 
 RestReport Resting::step(world::World& world, const world::Listeners& listeners) {
-  const Stopwatch watch;
-  RestReport report;
-  report.step.min_gap = report.smallest_gap = std::numeric_limits<double>::infinity();
-  const int level = std::max(0, halvings_ - 1), parts = 1 << level;  // half of what the last frame needed
-  halvings_ = level;
-  was_far_.swap(is_far_);
-  is_far_.assign(world.bodies.size(), 0);
-  for (int part = 0; part < parts; ++part) {
-    double start = frame_ / parts * part, left = frame_ / parts;
-    // Cut where a body with a path takes a new course.
-    for (double length = left; left > 0; start += length, left -= length) {
-      if (world.effects.paths) {
-        length = world::until_next_row(world, left);
-        world::follow_paths(world, length);
-      }
-      advance(world, {start, length, level}, listeners, report);
+  report_ = {};
+  contacts_.next_frame();
+  std::fill(meetings_.begin(), meetings_.end(), 0);
+  records_.clear();
+  const std::int64_t searched = contacts_.searched();
+  world::StepReport report = world::step_with(*this, world, frame_, listeners);
+  if (world.effects.sleep) fall_asleep(world, islands_, frame_, report);
+  report.min_gap = std::min(report.min_gap, report_.smallest_gap);
+  report.max_penetration = std::max(report.max_penetration, -std::min(0.0, report_.smallest_gap));
+  report_.step = report;
+  report_.searched = contacts_.searched() - searched;
+  if (listeners.impact) records_.tell(listeners.impact);
+  return report_;
+}
+
+std::vector<int> Resting::begin(world::World& world, double dt, world::StepReport& report,
+                                const world::Listeners& listeners) {
+  dt_ = dt;
+  plans_.clear();
+  free_plans_.clear();
+  crowds_.begin(world.bodies.size(), find_crowds(world, contacts_, dt, options_.most_work));
+  Instant instant{world, 0, report, listeners};
+  for (int body = 0; body < static_cast<int>(world.bodies.size()); ++body)
+    if (world.yields(body) && !world.bodies[at(body)].asleep) instant.bodies.push_back(body);
+  return go_on(std::move(instant));
+}
+
+double Resting::next_end() const {
+  double first = std::numeric_limits<double>::infinity();
+  for (const Running& plan : plans_)
+    if (plan.runs) first = std::min(first, plan.end);
+  return first;
+}
+
+std::vector<int> Resting::end_plans(world::World& world, double now, world::StepReport& report,
+                                    const world::Listeners& listeners) {
+  Instant instant{world, now, report, listeners};
+  for (const Running& plan : plans_)
+    if (plan.runs && plan.end <= now)
+      instant.bodies.insert(instant.bodies.end(), plan.what.bodies.begin(), plan.what.bodies.end());
+  return go_on(std::move(instant));
+}
+
+std::vector<int> Resting::meet(world::World& world, int a, int b, double now, world::StepReport& report,
+                               const world::Listeners& listeners) {
+  Instant instant{world, now, report, listeners};
+  for (const int body : {a, b}) {
+    ++meetings_[at(body)];
+    if (world.yields(body)) instant.bodies.push_back(body);
+  }
+  const auto is_crowded = [&](int body) { return crowds_.of(body) != nullptr; };
+  if (std::any_of(instant.bodies.begin(), instant.bodies.end(), is_crowded)) crowds_.unite(instant.bodies);
+  return go_on(std::move(instant));
+}
+
+// These bodies, and all that they are in contact with, directly or over others.
+std::vector<int> Resting::go_on(Instant instant) {
+  islands_.begin(instant.now);
+  crowds_.begin_instant();
+  for (std::size_t i = 0; i < instant.bodies.size(); ++i) {  // the list grows
+    const int body = instant.bodies[i];
+    if (crowds_.of(body) == nullptr) {
+      if (islands_.is_in_island(body)) continue;
+      Island island = islands_.grow(instant.world, body, crowds_.crowd_of());
+      join_crowd(island, event_work(0, island.rank()) > options_.most_work);
+      if (crowds_.of(body) == nullptr) go_on(instant, island);
     }
+    CrowdList::Crowd* crowd = crowds_.of(body);
+    if (crowd != nullptr && !crowd->done) go_on(instant, *crowd);
   }
-  world.part_start = 0;
-  fall_asleep(world, report);
-  report.step.step_ns = watch.ns();
-  report.step.ccd_ns = report.step.step_ns - report.step.lcp_ns;
-  return report;
+  if (instant.now > 0) report_.correction_energy += std::max(0.0, instant.gained);
+  if (instant.now >= dt_) instant.changed.clear();  // the frame is over
+  return std::move(instant.changed);
 }
 
-// ANCHOR: step
-void Resting::advance(world::World& world, const Part& part, const world::Listeners& listeners,
-                      RestReport& report) {
-  begin(world, part, report);
-  take(world);
-  for (const std::vector<int>& members : islands_of(world, shell_.contacts(), taken_))
-    solve(world, members, report);                                      // contacts that last
-  solve_crowd(world, report);                                           // those of which there are too many
-  steer(world, report);                                                 // gaps
-  const bool proved = prove(world, report) || put_back(world, report);  // the way
-  if (!proved && part.level < kMostHalvings) return halve(world, part, listeners, report);
-  if (!finish(world, part, listeners, report)) halve(world, part, listeners, report);  // chapter 4: the rest
-}
-// ANCHOR_END: step
-
-// This part of the frame is taken back, and done in two.
-void Resting::halve(world::World& world, const Part& part, const world::Listeners& listeners,
-                    RestReport& report) {
-  keep_for_halves();
-  world.bodies = saved_[at(part.level)];
-  report.step.lost_time = lost_[at(part.level)];
-  halvings_ = std::max(halvings_, part.level + 1);
-  for (const double half : {0.0, 0.5 * part.length})
-    advance(world, {part.start + half, 0.5 * part.length, part.level + 1}, listeners, report);
+// Plans end, the instant's impact law acts, and new plans begin; an island that cannot be followed becomes a crowd.
+void Resting::go_on(Instant& instant, Island& island) {
+  const double work = instant.report.kinematic_work, before = stand(instant, island.members);
+  wake(instant.world, island.members, instant.report);
+  report_.largest_island = std::max(report_.largest_island, island.points());
+  for (const IslandPair& pair : island.pairs)
+    report_.smallest_gap = std::min(report_.smallest_gap, pair.contacts->gap);
+  const bool solved = island.pairs.empty() || resolve(instant, island);
+  set_courses(instant, island.members, before, work);
+  const bool goes = instant.now >= dt_ || island.pairs.empty() || (solved && plan(instant, island));
+  if (!goes) join_crowd(island, true);
 }
 
-// The way is as good as it gets: chapter 4's step does everything else. False if it had to hold somebody who
-// may go on in halves: nothing is told of this part then.
-bool Resting::finish(world::World& world, const Part& part, const world::Listeners& listeners,
-                     RestReport& report) {
-  const RestReport before = report;
-  settle(world, report);
-  const world::Listeners later = world::from(part.start, listeners);
-  const auto sighted = world.sighted;
-  told_.clear();
-  world::Listeners first;  // what is told cannot be taken back: it waits
-  if (later.impact)
-    first.impact = [&](const world::ImpactRecord& impact) {
-      told_.emplace_back([&later, impact] { later.impact(impact); });
-    };
-  if (later.sighting)
-    first.sighting = [&](const world::Sighting& sighting) {
-      told_.emplace_back([&later, sighting] { later.sighting(sighting); });
-    };
-  if (later.instant)
-    first.instant = [&](const world::World& now, double time) {
-      told_.emplace_back([&later, &world, bodies = now.bodies, time]() mutable {
-        world.bodies.swap(bodies);
-        later.instant(world, time);
-        world.bodies.swap(bodies);
-      });
-    };
-  std::vector<world::Body> at_start = later.instant ? world.bodies : std::vector<world::Body>();
-  const world::StepReport rest = world::step(world, dt_, first);
-  if (rest.lost_time > 0 && part.level < kMostHalvings) {
-    report = before;
-    world.sighted = sighted;
-    return false;
+// All stand where they are now; the plans that moved them end. Returns the energy (J) with which they began their courses.
+double Resting::stand(Instant& instant, std::span<Member> members) {
+  double energy = 0;
+  for (Member& member : members) {
+    if (!member.dynamic) continue;
+    world::Body& body = instant.world.bodies[at(member.number)];
+    if (body.plan.number >= 0) end_plan(instant, body.plan.number);
+    instant.world.carry(member.number, instant.now, instant.now);
+    member.state = body.state;
+    instant.changed.push_back(member.number);
+    energy += energy_[at(member.number)];
   }
-  if (later.instant) world.bodies.swap(at_start);  // contacts that last are told as of the start
-  tell(world, later, report);
-  if (later.instant) world.bodies.swap(at_start);
-  for (const auto& tell_now : told_) tell_now();
-  world::add(rest, report.step);
+  return energy;
+}
+
+void Resting::set_courses(Instant& instant, std::span<const Member> members, double before, double work) {
+  double gained = work - instant.report.kinematic_work - before;
+  for (const Member& member : members) {
+    if (!member.dynamic) continue;
+    instant.world.set_course(member.number, member.state, instant.now);
+    energy_[at(member.number)] = energy_of(instant.world, member.state);
+    gained += energy_[at(member.number)];
+  }
+  instant.gained += gained;
+}
+
+// An island that a crowd has got into belongs to it; else it becomes one if it `must`, or if it has events without end.
+void Resting::join_crowd(const Island& island, bool must) {
+  std::vector<int> bodies;
+  for (const Member& member : island.members) {
+    if (!member.dynamic) continue;
+    bodies.push_back(member.number);
+    must =
+        must || crowds_.of(member.number) != nullptr || meetings_[at(member.number)] > options_.most_meetings;
+  }
+  if (must) crowds_.unite(bodies);
+}
+
+// Its bodies stand where they are now, with the velocities that they have; what its rows did until now is told.
+void Resting::end_plan(Instant& instant, int number) {
+  Running& plan = plans_[at(number)];
+  const double share = (instant.now - plan.start) / (plan.end - plan.start);
+  const bool whole = instant.now >= plan.end;
+  for (std::size_t i = 0; i < plan.what.bodies.size(); ++i) {
+    const int member = plan.what.bodies[i];
+    world::Body& body = instant.world.bodies[at(member)];
+    instant.world.carry(member, instant.now, instant.now);
+    body.plan = {};
+    if (whole) {
+      body.state.velocity += plan.what.arrivals[i].linear;
+      body.state.spin += plan.what.arrivals[i].angular;
+    }
+    instant.bodies.push_back(member);
+  }
+  for (const PlannedRow& row : plan.what.rows) {
+    const double end = told_at(instant.now, dt_), acted = whole ? row.impulse : share * row.early;
+    if (acted > 0)
+      records_.add({row.arrives ? end : plan.start,
+                    row.contact,
+                    {0, 0, row.before, row.after, acted},
+                    world::ContactKind::rest},
+                   row.key);
+    if (!whole || !(row.back > 0)) continue;
+    ++instant.report.impacts;
+    instant.listeners.impact(
+        {end, row.contact, {0, 0, row.before, row.after, row.back}, world::ContactKind::impact});
+  }
+  instant.report.kinematic_work += whole ? plan.what.kinematic_work : share * plan.what.early_work;
+  plan.runs = false;
+  free_plans_.push_back(number);
+}
+
+// The instant's impact law; false if it could not be solved.
+bool Resting::resolve(Instant& instant, Island& island) {
+  InstantOptions options;
+  options.rest_speed = envelope() / dt_;
+  options.time = told_at(instant.now, dt_);
+  options.guess = 0.5 * dt_;
+  options.bounces = [&](int body) { return meetings_[at(body)] < kMostBounces; };
+  options.solver = options_.solver;
+  const InstantResult result = resolve_instant(instant.world, island, envelope(), solver_, options);
+  if (!result.solved && options_.solver.chosen)
+    throw lcp::unsolved(instant.world.solver, result.status, result.steps, result.residual);
+  if (!result.solved) return false;
+  world::StepReport& report = instant.report;
+  report.contacts += result.contacts;
+  report.lcp_rows += result.rows;
+  report.solves += result.solves;
+  report.lcp_residual = std::max(report.lcp_residual, result.residual);
+  report.kinematic_work += result.kinematic_work;
+  report.energy_gain = std::max(report.energy_gain, result.energy_gain);
+  for (std::size_t i = 0; i < result.records.size(); ++i) {
+    const world::ImpactRecord& record = result.records[i];
+    const bool impact = record.kind == world::ContactKind::impact;
+    report.impacts += impact;
+    if (!impact) records_.add(record, result.keys[i]);
+    if (impact && instant.listeners.impact) instant.listeners.impact(record);
+  }
+  for (Member& member :
+       island.members) {  // what is left of a velocity in contact that does not move the body
+    const double reach = instant.world.model_of(member.number).reach;
+    const double speed = member.state.velocity.norm() + reach * member.state.spin.norm();
+    if (member.dynamic && dt_ * speed < kStill * envelope())
+      member.state.velocity = member.state.spin = Vec3::Zero();
+  }
+  if (result.impact && instant.listeners.instant) {
+    for (const Member& member : island.members)
+      if (member.dynamic) instant.world.set_course(member.number, member.state, instant.now);
+    instant.listeners.instant(instant.world, instant.now);
+  }
   return true;
 }
 
-// Where everything stands, which contacts there are, and what gravity will have made of the velocities by the
-// frame's end. (A body that was held did not live through the last frame: it has that frame's gravity
-// already.)
-void Resting::begin(world::World& world, const Part& part, RestReport& report) {
-  const double share = part.length / dt_;  // of the impulses that were
-  dt_ = part.length;
-  world.part_start = part.start;
-  world.rest_speed = shell_.envelope() / dt_;
-  given_.clear();
-  start_.clear();
-  sweeps_.clear();
-  for (world::Body& body : world.bodies) {
-    body.supported = body.steered = body.foreseen = false;
-    given_.push_back(body.state);
-    start_.push_back(body.state);
-    if (world.effects.gravity && !body.state.is_static() && !body.was_held && !body.asleep)
-      start_.back().velocity += dt_ * world.gravity_on(body.state);
-    const bool moves = !world.stays(static_cast<int>(start_.size()) - 1);
-    sweeps_.push_back({body.state.position, 0, 0});
-    if (!moves) continue;
-    sweeps_.back().end += dt_ * start_.back().velocity;
-    sweeps_.back().turn = dt_ * body.state.spin.norm();
-    if (world.effects.gravity) sweeps_.back().sag = 0.125 * dt_ * dt_ * world.effects.gravity->norm();
+// A plan for the bodies of the island that are in contact, as long as their paths can be proved, at most to the frame's end;
+// false if there is none.
+bool Resting::plan(Instant& instant, Island& island) {
+  for (const IslandPair& pair : island.pairs)
+    for (ContactPoint& point : pair.contacts->points) point.lasts = false;
+  const double left = dt_ - instant.now;
+  double length = left;
+  for (const Member& member : island.members)
+    if (member.dynamic) length = std::min(length, try_length_[at(member.number)]);
+  if (length > kNearlyAll * left) length = left;
+  using Result = PlanMaker::Result;
+  for (;;) {
+    const Result result =
+        maker_.make(instant.world, island, instant.now, length, {options_.solver, envelope() / dt_});
+    report_.checked += maker_.checked();
+    instant.report.solves += maker_.solves();
+    instant.report.lcp_residual = std::max(instant.report.lcp_residual, maker_.worst_residual());
+    if (result == Result::proved) break;
+    if (result == Result::unsolved && options_.solver.chosen)
+      throw lcp::unsolved(instant.world.solver, maker_.status(), maker_.steps(), maker_.worst_residual());
+    const bool meets = result == Result::meets && maker_.meeting() > kShortest * dt_;
+    if (result == Result::unsolved || (!meets && length < kShortest * dt_)) return false;
+    length = meets ? std::min(maker_.meeting(), 0.999 * length) : 0.5 * length;
   }
-  shell_.find(world, sweeps_);
-  wake_touched(world, report);
-  saved_[at(part.level)] = world.bodies;
-  lost_[at(part.level)] = report.step.lost_time;
-  for (ShellContact& contact : shell_.contacts()) {
-    contact.bounce = std::exchange(contact.bounce_next, 0);
-    contact.impulse *= share;
-  }
-  find_crowds(world);
-  resting_.assign(world.bodies.size(), 0);
-  changed_.assign(world.bodies.size(), 1);
-  tracks_.resize(world.bodies.size());
-  for (int body = 0; body < static_cast<int>(tracks_.size()); ++body) follow(world, body);
-  taken_.clear();
-  row_.clear();
-  end_gaps_.clear();
-  contact_of_.clear();
-  reaches_.clear();
-  for (const world::Body& body : world.bodies) reaches_.push_back(world.shapes[body.shape].reach);
-  crowd_.begin(start_, reaches_);
+  for (const Member& member : island.members)
+    if (member.dynamic) try_length_[at(member.number)] = 2 * length;
+  start(instant, maker_.take(), length == left ? dt_ : instant.now + length);
+  return true;
 }
 
-// Bodies that are near each other, over others if need be, with more rows than are solved exactly.
-void Resting::find_crowds(const world::World& world) {
-  Joined joined(world.bodies.size());
-  for (const ShellPair& pair : shell_.pairs())
-    if (world.yields(pair.a) && world.yields(pair.b)) joined.join(pair.a, pair.b);
-  std::vector<int> rows(world.bodies.size(), 0);
-  for (const ShellPair& pair : shell_.pairs())
-    rows[at(joined.root(world.yields(pair.a) ? pair.a : pair.b))] += pair.count;
-  crowded_.assign(world.bodies.size(), 0);
-  for (int body = 0; body < static_cast<int>(crowded_.size()); ++body)
-    crowded_[at(body)] = world.yields(body) && rows[at(joined.root(body))] > options_.crowd;
-}
-
-// What comes in faster than the shell allows is an impact, and chapter 4's, unless it has no way left to come
-// in. In a crowd every contact is a row. Looks at those that it has not looked at yet.
-void Resting::take(const world::World& world) {
-  const double fast = shell_.envelope() / dt_, middle = 0.5 * shell_.envelope();
-  const std::vector<ShellContact>& shell = shell_.contacts();
-  for (std::size_t i = taken_.size(); i < shell.size(); ++i) {
-    const lcp::Contact& c = shell[i].contact;
-    row_.push_back(-1);
-    taken_.push_back(0);
-    if (rests(world, c.body_a) && rests(world, c.body_b)) continue;
-    if (is_crowded(c)) {
-      add_row(static_cast<int>(i));
+// A crowd has no impacts of its own, only plans: two in a frame; and more, if it is so small that shorter plans cost less than
+// paths that are shortened.
+void Resting::go_on(Instant& instant, CrowdList::Crowd& crowd) {
+  crowd.done = true;
+  std::vector<Member> members;
+  for (const int body : crowd.bodies) members.push_back({body, {}, true});
+  const double work = instant.report.kinematic_work, before = stand(instant, members);
+  wake(instant.world, members, instant.report);
+  set_courses(instant, members, before, work);
+  if (instant.now >= dt_) return;
+  const double half = instant.now < (0.5 - kShortest) * dt_ ? 0.5 * dt_ : dt_, left = half - instant.now;
+  CrowdOptions options;
+  options.frame = dt_;
+  options.sweeps = options_.sweeps;
+  options.visits = options_.visits;
+  options.told = static_cast<bool>(instant.listeners.impact);
+  Planned planned;
+  double length = crowd.length > kNearlyAll * left ? left : crowd.length;
+  for (bool stopped = false;;) {
+    planned = crowd_planner_.make(instant.world, members, instant.now, length, options);
+    report_.checked += crowd_planner_.checked();
+    report_.sweeps += crowd_planner_.sweeps();
+    const bool blocked = !crowd_planner_.blocked().empty() && !stopped;
+    const bool is_small = blocked || crowd_planner_.rows() <= kManyRows;
+    const bool is_short = crowd_planner_.shortened() > 0 && !crowd.jammed;
+    if (is_small && (is_short || crowd_planner_.gains()) &&
+        length > (blocked ? kShortest : kShortestOfCrowd) * dt_) {
+      length *= 0.5;
+    } else if (blocked) {
+      for (const int body : crowd_planner_.blocked())
+        stop(instant.world, body, instant.now, dt_, instant.report);
+      stopped = true;
+    } else if (is_short && stopped) {
+      crowd.jammed = true;
+      length = left;
     } else {
-      const double closing = -lcp::contact_velocity(given_, c);
-      taken_[i] = c.restitution == 0 || closing <= std::max(fast, (c.gap - middle) / dt_) ||
-                  c.gap < kNoWay * world.tolerance;
+      break;
     }
   }
+  crowd.length = 2 * length;
+  report_.shortened += crowd_planner_.shortened();
+  report_.lost_impulse += crowd_planner_.lost_impulse();
+  report_.largest_island = std::max(report_.largest_island, crowd_planner_.rows());
+  report_.smallest_gap = std::min(report_.smallest_gap, crowd_planner_.smallest_gap());
+  instant.report.lcp_residual = std::max(instant.report.lcp_residual, crowd_planner_.residual());
+  instant.report.contacts += crowd_planner_.rows();
+  ++instant.report.solves;
+  start(instant, std::move(planned), length == left ? half : instant.now + length);
 }
 
-// How fast a contact may close in, m/s; negative: it must part. `before` is its velocity with gravity's part.
-double Resting::allowed(ShellContact& c) const {
-  const double middle = 0.5 * shell_.envelope(), fast = shell_.envelope() / dt_;
-  c.before = lcp::contact_velocity(start_, c.contact);
-  if (c.bounce > 0) return -c.bounce;
-  // Whether it bounces is asked without what gravity will do in this part of the frame, as in take().
-  const double closing = -lcp::contact_velocity(given_, c.contact);
-  if (is_crowded(c.contact) && c.contact.restitution > 0 && closing > fast &&
-      c.contact.gap <= shell_.envelope())
-    return -c.contact.restitution * closing;
-  return std::max(0.0, c.contact.gap - middle) / dt_;
-}
-
-// Bodies that are driven into what cannot give way stand still for this part of the frame; whether there are.
-bool Resting::stop_driven(world::World& world, Island& island, RestReport& report) {
-  bool any = false;
-  for (std::size_t k = 0; k < island.bodies.size(); ++k) {
-    const int number = island.numbers[k];
-    if (!world.carries(number)) continue;
-    island.bodies[k].velocity = island.bodies[k].spin = Vec3::Zero();
-    world.bodies[number].held = any = true;
-    report.step.lost_time = std::max(report.step.lost_time, dt_);
-    follow(world, number);
+void Resting::start(Instant& instant, Planned&& planned, double end) {
+  ++report_.plans;
+  report_.resting += planned.pushing;
+  report_.correction = std::max(report_.correction, planned.correction);
+  if (planned.bodies.empty()) return;
+  int number = static_cast<int>(plans_.size());
+  if (free_plans_.empty()) {
+    plans_.emplace_back();
+  } else {
+    number = free_plans_.back();
+    free_plans_.pop_back();
   }
-  return any;
-}
-
-void Resting::solve(world::World& world, const std::vector<int>& members, RestReport& report) {
-  const Stopwatch watch;
-  std::vector<ShellContact>& shell = shell_.contacts();
-  Island island(start_, shell, members, place_);
-  allowed_.clear();
-  impulses_.clear();
-  for (std::size_t k = 0; k < members.size(); ++k) {
-    ShellContact& c = shell[at(members[k])];
-    allowed_.push_back(allowed(c));
-    impulses_.push_back(c.impulse);
+  for (std::size_t i = 0; i < planned.bodies.size(); ++i) {
+    world::Body& body = instant.world.bodies[at(planned.bodies[i])];
+    body.plan = planned.courses[i];
+    body.plan.number = number;
+    const double path = dt_ * (body.plan.linear.norm() +
+                               instant.world.model_of(planned.bodies[i]).reach * body.plan.angular.norm());
+    if (path < kStill * envelope()) body.plan.linear = body.plan.angular = Vec3::Zero();
   }
-  IslandResult result = solver_.solve(island.bodies, island.contacts, allowed_, impulses_, options_.small);
-  if (!result.solved && stop_driven(world, island, report))
-    result = solver_.solve(island.bodies, island.contacts, allowed_, impulses_, options_.small);
-  if (!result.solved && options_.small.chosen)
-    throw lcp::unsolved(world.solver, result.status, result.sweeps, result.residual);
-  if (!result.solved)
-    throw SceneFailure(
-        fmt::format(
-            "{} resting contacts that belong together could not be solved: a residual of {:.2g} was left "
-            "after {} sweeps, {:g} may be; shorten step.dt, or take less unequal masses",
-            members.size(), result.residual, result.sweeps, options_.small.accepted),
-        "envelope");
-  const int rows = static_cast<int>(members.size());
-  if (!options_.small.chosen) report.sweeps += result.sweeps;
-  report.largest_island = std::max(report.largest_island, rows);
-  report.step.contacts += rows;
-  report.step.lcp_rows += rows;
-  ++report.step.solves;
-  report.step.lcp_residual = std::max(report.step.lcp_residual, result.residual);
-
-  const Vec3 gravity = world.effects.gravity.value_or(Vec3(Vec3::Zero()));
-  std::vector<char> pushed(island.bodies.size()), supported(island.bodies.size());
-  for (std::size_t k = 0; k < members.size(); ++k) {
-    const lcp::Contact& contact = island.contacts[k];
-    ShellContact& c = shell[at(members[k])];
-    c.impulse = impulses_[k];
-    c.after = lcp::contact_velocity(island.bodies, contact);
-    if (!(impulses_[k] > 0)) continue;
-    pushed[at(contact.body_a)] = pushed[at(contact.body_b)] = 1;
-    if (world::bears_weight(contact.normal, gravity))
-      supported[at(contact.body_a)] = supported[at(contact.body_b)] = 1;
-  }
-  for (std::size_t k = 0; k < island.bodies.size(); ++k) {
-    RigidBody& body = island.bodies[k];
-    if (body.is_static()) continue;
-    const double reach = tracks_[at(island.numbers[k])].reach;
-    const double way = dt_ * (body.velocity.norm() + reach * body.spin.norm());
-    if (supported[k] && way < kStill * shell_.envelope()) body.velocity = body.spin = Vec3::Zero();
-    take_course(world, island.numbers[k], pushed[k], supported[k], body);
-    follow(world, island.numbers[k]);
-  }
-  report.step.lcp_ns += watch.ns();
-}
-
-// What was pushed moves straight on; what was not falls in closed form. Pushed by walls alone it goes on
-// falling, too: gravity will add again what is in its velocity.
-void Resting::take_course(world::World& world, int number, bool pushed, bool supported, RigidBody state) {
-  world::Body& body = world.bodies[number];
-  const bool was_pushed = resting_[at(number)] == 2;
-  resting_[at(number)] = pushed ? 2 : 1;
-  if (!pushed) {
-    if (!was_pushed) return;
-    state = given_[at(number)];
-    supported = false;
-  } else if (!supported) {
-    state.velocity -= start_[at(number)].velocity - given_[at(number)].velocity;
-  }
-  if (body.asleep && state.velocity.isZero(0) && state.spin.isZero(0)) return;  // nothing wakes it
-  body.supported = supported;
-  world.set_course(number, state, 0);
-}
-
-// Guesses, and who is to bounce.
-void Resting::keep_for_halves() {
-  for (ShellContact& contact : shell_.contacts()) contact.bounce_next = contact.bounce;
-  for (int row = 0; row < crowd_.rows(); ++row)
-    shell_.contacts()[at(contact_of_[at(row)])].impulse = crowd_.impulse(row);
-}
-
-void Resting::tell(const world::World& world, const world::Listeners& listeners, RestReport& report) {
-  report.searched += shell_.searched();
-  report.shell_contacts += static_cast<int>(shell_.contacts().size());
-  report.smallest_gap = std::min(report.smallest_gap, shell_.smallest_gap());
-  report.step.min_gap = std::min(report.step.min_gap, shell_.smallest_gap());
-  report.step.max_penetration = std::max(report.step.max_penetration, -std::min(0.0, shell_.smallest_gap()));
-  report.crowded =
-      std::max(report.crowded, static_cast<int>(std::count(crowded_.begin(), crowded_.end(), 1)));
-  for (int row = 0; row < crowd_.rows(); ++row) {
-    ShellContact& c = shell_.contacts()[at(contact_of_[at(row)])];
-    c.impulse = crowd_.impulse(row);
-    c.after = crowd_.speed(row);
-  }
-  bool any = false;
-  for (std::size_t i = 0; i < taken_.size(); ++i) {
-    const ShellContact& c = shell_.contacts()[i];
-    if (!(taken_[i] || row_[i] >= 0) || !(c.impulse > 0)) continue;
-    const bool bounces = c.bounce > 0;
-    ++(bounces ? report.step.impacts : report.resting);
-    report.step.kinematic_work += lcp::kinematic_work(start_, c.contact, c.impulse);
-    any = true;
-    if (!listeners.impact) continue;
-    const auto kind = bounces ? world::ContactKind::impact : world::ContactKind::rest;
-    listeners.impact({0, c.contact, {0, 0, c.before, c.after, c.impulse}, kind});
-  }
-  if (listeners.instant && any) listeners.instant(world, 0);
+  plans_[at(number)] = {true, instant.now, end, std::move(planned)};
 }
 
 }  // namespace fc::resting

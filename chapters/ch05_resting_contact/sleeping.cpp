@@ -1,69 +1,58 @@
-// Of a frame: islands that fall asleep, and wake when something touches them.
-#include <algorithm>
-
-#include "ch05_resting_contact/resting.hpp"
+#include "ch05_resting_contact/sleeping.hpp"
 
 namespace fc::resting {
+namespace {
 
-// Bodies that contacts join sleep together, or not at all.
-Joined Resting::joined_by_contacts(const world::World& world) const {
-  Joined joined(world.bodies.size());
-  for (const ShellContact& shell : shell_.contacts())
-    if (world.yields(shell.contact.body_a) && world.yields(shell.contact.body_b))
-      joined.join(shell.contact.body_a, shell.contact.body_b);
-  return joined;
+world::Body& body_of(world::World& world, const Member& member) {
+  return world.bodies[at(member.number)];
 }
 
-// Who may be touched in this part of the frame, by somebody awake or driven, wakes; and everybody joined to
-// it.
-void Resting::wake_touched(world::World& world, RestReport& report) {
-  if (!world.effects.sleep) return;
-  Joined joined = joined_by_contacts(world);
-  std::vector<char> touched(world.bodies.size(), 0);
-  for (const ShellPair& pair : shell_.pairs()) {
-    const bool a_sleeps = world.bodies[pair.a].asleep, b_sleeps = world.bodies[pair.b].asleep;
-    const int other = a_sleeps ? pair.b : pair.a;
-    if (a_sleeps == b_sleeps || world.stays(other)) continue;
-    const Sweep& sweep = sweeps_[at(other)];
-    const double way = (sweep.end - given_[at(other)].position).norm() +
-                       sweep.turn * world.shapes[world.bodies[other].shape].reach + sweep.sag;
-    if (pair.gap - way <= shell_.envelope()) touched[at(joined.root(a_sleeps ? pair.a : pair.b))] = 1;
+// Whether the island may sleep; counts for how long its bodies have been slow.
+bool rests(world::World& world, const Island& island, double dt) {
+  bool lies = false, all = true;
+  for (const Member& member : island.members) {
+    world::Body& body = body_of(world, member);
+    if (!member.dynamic) {
+      lies = true;
+      all = all && !world.carries(member.number);
+      continue;
+    }
+    const double reach = world.shapes[at(body.shape)].reach;
+    const double speed = body.state.velocity.norm() + reach * body.state.spin.norm();
+    body.still = speed <= world.effects.sleep->speed ? body.still + dt : 0;
+    all = all && body.still >= world.effects.sleep->after;
   }
-  for (int body = 0; body < static_cast<int>(touched.size()); ++body) {
-    if (!world.bodies[body].asleep || !touched[at(joined.root(body))]) continue;
-    world.bodies[body].asleep = false;
-    still_[at(body)] = 0;
-    ++report.step.wakes;
+  return lies && all;
+}
+
+}  // namespace
+
+void wake(world::World& world, std::span<const Member> members, world::StepReport& report) {
+  for (const Member& member : members) {
+    world::Body& body = body_of(world, member);
+    if (!member.dynamic || !body.asleep) continue;
+    body.asleep = false;
+    body.still = 0;
+    ++report.wakes;
   }
 }
 
-// At a frame's end: an island whose bodies have all been carried, and slow, for long enough.
-void Resting::fall_asleep(world::World& world, RestReport& report) {
-  if (!world.effects.sleep) return;
-  const SleepSpec& sleep = *world.effects.sleep;
-  Joined joined = joined_by_contacts(world);
-  std::vector<char> restless(world.bodies.size(), 0);
-  for (int number = 0; number < static_cast<int>(restless.size()); ++number) {
-    const world::Body& body = world.bodies[number];
-    if (!world.yields(number) || body.asleep) continue;
-    const double speed = body.state.velocity.norm() + world.shapes[body.shape].reach * body.state.spin.norm();
-    double& still = still_[at(number)];
-    still = body.supported && speed <= sleep.speed ? still + frame_ : 0;
-    if (still < sleep.after) restless[at(joined.root(number))] = 1;
-  }
-  for (const ShellContact& shell : shell_.contacts()) {
-    const lcp::Contact& c = shell.contact;
-    if (world.carries(c.body_a)) restless[at(joined.root(c.body_b))] = 1;
-    if (world.carries(c.body_b)) restless[at(joined.root(c.body_a))] = 1;
-  }
-  for (int number = 0; number < static_cast<int>(restless.size()); ++number) {
-    world::Body& body = world.bodies[number];
-    if (!world.yields(number) || body.asleep || restless[at(joined.root(number))]) continue;
-    report.step.slept_energy += body.state.kinetic_energy();
-    ++report.step.falls_asleep;
-    body.state.velocity = body.state.spin = Vec3::Zero();
-    body.free.reset();
-    body.asleep = true;
+void fall_asleep(world::World& world, IslandFinder& islands, double dt, world::StepReport& report) {
+  const std::vector<int> no_crowds(world.bodies.size(), -1);
+  islands.begin(0);
+  for (int i = 0; i < static_cast<int>(world.bodies.size()); ++i) {
+    if (!world.yields(i) || world.bodies[at(i)].asleep || islands.is_in_island(i)) continue;
+    const Island island = islands.grow(world, i, no_crowds);
+    if (!rests(world, island, dt)) continue;
+    for (const Member& member : island.members) {
+      if (!member.dynamic) continue;
+      world::Body& body = body_of(world, member);
+      report.slept_energy += body.state.kinetic_energy();
+      ++report.falls_asleep;
+      body.state.velocity = body.state.spin = Vec3::Zero();
+      body.free.reset();
+      body.asleep = true;
+    }
   }
 }
 

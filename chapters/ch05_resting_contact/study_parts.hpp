@@ -69,7 +69,9 @@ struct Frame {
 // What a run did.
 struct Run {
   std::int64_t rows = 0, queries = 0, sweeps = 0, solves = 0;
-  double lost = 0, steered = 0;  // s; J, potential energy that corrections added
+  std::int64_t shortened = 0;  // paths of bodies
+  double lost = 0, corrected = 0,
+         lost_impulse = 0;  // s; J, that corrections added; N s, that shortened paths took
   double mean_residual = 0, worst_residual = 0;
   double gap = 0;                          // m, the smallest at the end of a frame, if someone looked
   std::vector<double> ns = {};             // of each repeat

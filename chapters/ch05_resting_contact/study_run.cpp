@@ -143,7 +143,9 @@ FrameStep envelope(const Setting& setting, world::World& start) {
     run.solves += r.step.solves;
     run.queries += r.searched + r.checked + r.step.queries;
     run.sweeps += r.sweeps;
-    run.steered += r.steering_energy;
+    run.corrected += r.correction_energy;
+    run.shortened += r.shortened;
+    run.lost_impulse += r.lost_impulse;
     frame.lost = r.step.lost_time;
     frame.residual = r.step.lcp_residual;
     return static_cast<double>(r.step.step_ns);

@@ -4,7 +4,7 @@
 
 namespace fc::exercises {
 
-bool is_impact(const Envelope& envelope, const Ball& ball) {
+bool is_impact(const Envelope& envelope, const Ball& ball, bool lasts) {
   FC_TODO("5.1");
 }
 

@@ -1,4 +1,4 @@
-// Exercise 5.1, to be seen: how gaps come to the middle of the envelope, on the moon; beside it Baumgarte's
+// Exercise 5.1, to be seen: how gaps come to half of the envelope, on the moon; beside it Baumgarte's
 // way, which makes a velocity of what a gap lacks. Writes row.csv.
 #include <algorithm>
 #include <cstdio>

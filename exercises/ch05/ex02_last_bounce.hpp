@@ -16,7 +16,7 @@ struct Drop {
 
 struct Ending {
   std::int64_t bounces = 0;  // touches that are faster than h/dt, and bounce: events. -1: infinitely many
-  double time = 0;           // s, from the drop to the touch that the envelope takes over; infinite if none
+  double time = 0;           // s, from the drop to the touch that is stopped; infinite if none
   double cut = 0;            // s, for which the ball would have gone on bouncing after that touch
   double energy = 0;         // J per kg, that this touch still has, and loses
 };

@@ -4,7 +4,7 @@
 
 namespace fc::exercises {
 
-Steering steer(std::span<const Box> boxes, bool floor, double width, double share, double gravity) {
+Correction correct(std::span<const Box> boxes, bool floor, double width, double share, double gravity) {
   FC_TODO("5.5");
 }
 

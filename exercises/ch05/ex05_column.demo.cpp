@@ -1,4 +1,4 @@
-// Exercise 5.5, to be seen: gaps of a column, frame by frame, while it is steered; and what it costs for
+// Exercise 5.5, to be seen: gaps of a column, frame by frame, while its gaps are put right; and what it costs for
 // columns of different heights. Writes column.csv and energy.csv.
 #include <cstdio>
 #include <filesystem>
@@ -14,11 +14,11 @@ using namespace fc::exercises;
 
 constexpr double kWidth = 0.0005, kShare = 0.2, kGravity = 9.81;
 
-double steer_once(std::vector<Box>& boxes) {  // J
-  const Steering steering = steer(boxes, true, kWidth, kShare, kGravity);
+double correct_once(std::vector<Box>& boxes) {  // J
+  const Correction correction = correct(boxes, true, kWidth, kShare, kGravity);
   for (std::size_t i = 0; i < boxes.size(); ++i)
-    boxes[i].gap += steering.displaced[i] - (i > 0 ? steering.displaced[i - 1] : 0);
-  return steering.energy;
+    boxes[i].gap += correction.displaced[i] - (i > 0 ? correction.displaced[i - 1] : 0);
+  return correction.energy;
 }
 
 }  // namespace
@@ -35,7 +35,7 @@ int main(int argc, char** argv) {
       for (std::int64_t frame = 0; frame <= 25; ++frame) {
         for (std::int64_t i = 0; i < static_cast<std::int64_t>(boxes.size()); ++i)
           frames.row({wide ? "a wide gap" : "touching", frame, i, boxes[static_cast<std::size_t>(i)].gap});
-        steer_once(boxes);
+        correct_once(boxes);
       }
     }
     frames.close();
@@ -45,8 +45,8 @@ int main(int argc, char** argv) {
       for (std::size_t i = 3; i < loose.size(); i += 4) loose[i].gap = 2.5 * kWidth;
       double energy = 0, loose_energy = 0;
       for (int frame = 0; frame < 100; ++frame) {
-        energy += steer_once(touching);
-        loose_energy += steer_once(loose);
+        energy += correct_once(touching);
+        loose_energy += correct_once(loose);
       }
       costs.row({count, energy, loose_energy});
     }

@@ -11,14 +11,14 @@ struct Box {
   double gap = 0;   // m, to what is below it: the box before, or for the first one the floor
 };
 
-struct Steering {
+struct Correction {
   std::vector<double> displaced;  // d_i, m, upwards, of each box
   std::vector<double> pushes;     // y_i, kg m, >= 0, of each gap; exactly 0 where u_i > 0
   double energy = 0;              // J, potential energy that the displacements add
 };
 
 // Displacements that put the gaps of a column right, boxes and gaps given from below. A gap g that lacks
-// something to the middle h/2 of the envelope (`width` h, m, > 0) has to grow by `share` (in (0, 1]) of that
+// something to the rest gap h/2 (`width` h, m, > 0) has to grow by `share` (in (0, 1]) of that
 // at least; one that has more may shrink by all that it has more:
 //   r_i = share (h/2 - g_i)  if g_i < h/2,   h/2 - g_i  else;   u_i = d_i - d_(i-1) - r_i >= 0.
 // The floor stays: d_(-1) = 0. Of all displacements that do so, those with the smallest sum of m_i d_i^2,
@@ -31,6 +31,6 @@ struct Steering {
 // Both for up to 10^5 boxes: sums of so many
 // numbers want more digits than a double has. The cost grows like the number of boxes. `gravity`: m/s^2, >= 0, downwards. The energy
 // is never negative, and zero in the air.
-Steering steer(std::span<const Box> boxes, bool floor, double width, double share, double gravity);
+Correction correct(std::span<const Box> boxes, bool floor, double width, double share, double gravity);
 
 }  // namespace fc::exercises

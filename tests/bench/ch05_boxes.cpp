@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "ch04_multibody_stepping/broad_phase.hpp"
+#include "tests/support/chain_link.hpp"
 
 namespace fc::bench {
 namespace {
@@ -95,6 +96,42 @@ Scene stack(int boxes) {
   add_body(scene, floor, Vec3(0, 0, -0.5), true);
   for (int k = 0; k < boxes; ++k) add_body(scene, box, Vec3(0, 0, (k + 0.5) * kSide), false);
   return scene;
+}
+
+Scene chain(int links, const std::filesystem::path& file) {
+  fc_test::write_chain_link(file, 16, 16);
+  Scene scene = empty("chain");
+  scene.envelope = 0;
+  ShapeSpec link;
+  link.geometry = MeshSpec{file};
+  link.density = 7680;
+  scene.shapes.push_back(link);
+  const Quat turned(Eigen::AngleAxisd(0.5 * M_PI, Vec3::UnitX()));
+  for (int i = 0; i < links; ++i)
+    add_body(scene, 0, Vec3(1.099 * i, 0, 0), i == 0 || i == links - 1,
+             i % 2 == 1 ? turned : Quat::Identity());
+  return scene;
+}
+
+Scene rings(int count) {
+  constexpr double kScale = 0.3, kRoom = 0.8;  // m: a ring may turn in its place as it likes
+  Scene scene = empty("rings");
+  add_pit(scene, 2 * kRoom + 0.1, 2 * kRoom + 0.1, 0.25 * count * kRoom + 4);
+  ShapeSpec ring;
+  ring.geometry = MeshSpec{FC_SOURCE_DIR "/chapters/ch04_multibody_stepping/scenes/parts/ring.obj", kScale};
+  ring.density = 500;
+  scene.shapes.push_back(ring);
+  const int shape = static_cast<int>(scene.shapes.size()) - 1;
+  for (int i = 0; i < count; ++i) {
+    const Vec3 place((i % 2 - 0.5) * kRoom, (i / 2 % 2 - 0.5) * kRoom, 0.5 + i / 4 * kRoom);
+    add_body(scene, shape, place, false,
+             Quat(Eigen::AngleAxisd(1.3 * i, Vec3(1, 0.3 * i, 0.5).normalized())));
+  }
+  return scene;
+}
+
+Scene bunny_in_a_bowl() {
+  return read_scene({FC_SOURCE_DIR "/chapters/ch05_resting_contact/scenes/bowl.yaml", {}, {}, 5});
 }
 
 double deepest_overlap(const Scene& scene, const std::vector<RigidBody>& states) {

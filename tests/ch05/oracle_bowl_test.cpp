@@ -26,7 +26,7 @@ TEST(Bunny, InABowl) {
     int contacts = 0;
     while (sim.time() < 1.2) {
       sim.step();
-      rise = std::max(rise, sim.energy() - energy - sim.last.steering_energy);
+      rise = std::max(rise, sim.energy() - energy - sim.last.correction_energy);
       energy = sim.energy();
       contacts += sim.last.step.impacts + sim.last.resting;
       const auto states = states_of(sim.world, 0);
@@ -35,7 +35,7 @@ TEST(Bunny, InABowl) {
     }
     EXPECT_GT(contacts, 10) << with;
     EXPECT_LE(rise, 1e-9 * 10 * solids[1].mass) << "J in a frame" << with;
-    EXPECT_LE(energy - sim.steered, 0.9 * start) << "J: it has hit the bowl without bounce" << with;
+    EXPECT_LE(energy - sim.corrected, 0.9 * start) << "J: it has hit the bowl without bounce" << with;
     EXPECT_EQ(sim.lost, 0) << "s" << with;
     EXPECT_GT(sim.smallest_gap, 0) << "m" << with;
     EXPECT_EQ(sim.penetration, 0) << "m" << with;

@@ -95,7 +95,7 @@ TEST(Bunny, StandsOnThreePoints) {
       double rise = 0, energy = sim.energy();
       while (sim.time() < 3) {
         sim.step();
-        rise = std::max(rise, sim.energy() - energy - sim.last.steering_energy);
+        rise = std::max(rise, sim.energy() - energy - sim.last.correction_energy);
         energy = sim.energy();
       }
       EXPECT_LE(rise, 1e-12 * weight) << "J in a frame" << with;

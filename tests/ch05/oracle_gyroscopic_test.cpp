@@ -29,7 +29,7 @@ TEST(Gyroscopic, GapsArePutRightByPositionsAlone) {
       while (sim.time() < 1) {
         sim.step();
         askew = std::max(askew, box.spin.head<2>().norm());
-        rise = std::max(rise, sim.energy() - energy - sim.last.steering_energy);
+        rise = std::max(rise, sim.energy() - energy - sim.last.correction_energy);
         energy = sim.energy();
         if (sim.frame == 1) {
           EXPECT_NEAR((box.orientation * Vec3::UnitZ()).head<2>().norm(), 0.8 * tilt, 0.01 * tilt)

@@ -22,7 +22,7 @@ struct Simulation {
   fc::resting::Resting resting;
   int frame = 0;
   double lost = 0;                 // s, all frames
-  double steered = 0;              // J, all frames
+  double corrected = 0;            // J, all frames
   double smallest_gap = INFINITY;  // m, certified, of all frames' pairs
   double penetration = 0;          // m
   fc::resting::RestReport last;
@@ -40,7 +40,7 @@ struct Simulation {
     last = resting.step(world, listeners);
     ++frame;
     lost += last.step.lost_time;
-    steered += last.steering_energy;
+    corrected += last.correction_energy;
     smallest_gap = std::min(smallest_gap, last.step.min_gap);
     penetration = std::max(penetration, last.step.max_penetration);
   }

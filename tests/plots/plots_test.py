@@ -106,6 +106,18 @@ class PlotTest(unittest.TestCase):
             if {"matplotlib", "numpy", "style"} & set(imports):
                 self.assertEqual(imports[0], "drawing_python", script.name)
 
+    def test_drawings_from_formulas_need_no_run(self):
+        self.run_dir.mkdir()
+        names = ("margin", "push", "bend", "turning_plane", "unproved", "cut", "impact", "shortened", "free_flight")
+        pictures = []
+        for folder in ("first", "second"):
+            done = plot_here("ch05_drawings", self.run_dir, "--out", self.folder / folder, "--only", *names)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            pictures.append([(self.folder / folder / f"{name}.svg").read_bytes() for name in names])
+        self.assertEqual(*pictures)
+        self.assert_fails("bounces/contacts.csv: no such file", "ch05_drawings", self.run_dir, "--only", "zeno")
+        self.assert_fails("nowhere: no such folder", "ch05_drawings", self.folder / "nowhere")
+
     def test_bouncing_ball(self):
         synthetic.bouncing_ball(self.run_dir)
         svg = self.assert_draws("energy")

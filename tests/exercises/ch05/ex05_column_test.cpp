@@ -19,7 +19,7 @@ constexpr double kWidth = 1, kGravity = 10;  // m, m/s^2: an envelope in which o
 
 void expect_displaced(const Boxes& boxes, bool floor, double share, const std::vector<double>& expected,
                       double energy, const char* meaning) {
-  const Steering got = steer(boxes, floor, kWidth, share, kGravity);
+  const Correction got = correct(boxes, floor, kWidth, share, kGravity);
   ASSERT_EQ(got.displaced.size(), expected.size()) << "displacements: one for each box";
   ASSERT_EQ(got.pushes.size(), expected.size()) << "pushes: one for each gap";
   for (std::size_t i = 0; i < expected.size(); ++i)
@@ -43,7 +43,7 @@ Boxes random_boxes(std::mt19937_64& random, int count, double decades) {
 
 // The conditions in the header; with them the answer is the only one.
 void expect_solution(const Boxes& boxes, bool floor, double share) {
-  const Steering got = steer(boxes, floor, kWidth, share, kGravity);
+  const Correction got = correct(boxes, floor, kWidth, share, kGravity);
   ASSERT_EQ(got.displaced.size(), boxes.size()) << "displacements: one for each box";
   ASSERT_EQ(got.pushes.size(), boxes.size()) << "pushes: one for each gap";
   double size = 0, weight = 0, sum = 0;  // m, kg, kg m
@@ -72,9 +72,9 @@ void expect_solution(const Boxes& boxes, bool floor, double share) {
 }
 
 TEST(Ex05Column, OneBox) {
-  expect_displaced({{2, 0.3}}, true, 1, {0.2}, 4, "up to the middle");
+  expect_displaced({{2, 0.3}}, true, 1, {0.2}, 4, "up to h / 2");
   expect_displaced({{2, 0.3}}, true, 0.2, {0.04}, 0.8, "a fifth of what lacks");
-  expect_displaced({{2, 0.5}}, true, 1, {0}, 0, "it is in the middle");
+  expect_displaced({{2, 0.5}}, true, 1, {0}, 0, "it is at h / 2");
   expect_displaced({{2, 0.9}}, true, 1, {0}, 0,
                    "it may come down, but nothing makes it: least is not to move");
   expect_displaced({}, true, 1, {}, 0, "nobody");
@@ -82,7 +82,7 @@ TEST(Ex05Column, OneBox) {
 
 TEST(Ex05Column, AColumnThatTouches) {
   constexpr int kCount = 10;
-  const Steering got = steer(Boxes(kCount, {2, 0}), true, kWidth, 0.2, kGravity);
+  const Correction got = correct(Boxes(kCount, {2, 0}), true, kWidth, 0.2, kGravity);
   for (int i = 0; i < kCount; ++i) {
     EXPECT_NEAR(got.displaced[static_cast<std::size_t>(i)], 0.1 * (i + 1), 1e-14)
         << "m, box " << i << ": each gap grows by a fifth of 1/2, and lifts all that is above";
@@ -106,7 +106,7 @@ TEST(Ex05Column, BoxesMayComeDown) {
   expect_displaced({{1, 2}, {1, 0}}, true, 1, {-0.25, 0.25}, 0,
                    "high above the floor two equal boxes part, each by half; that costs no energy");
   expect_displaced({{1, 2}, {3, 0}}, true, 1, {-0.375, 0.125}, 0, "the light one gives way");
-  const Steering got = steer(Boxes{{1, 2}, {3, 0}}, true, kWidth, 1, kGravity);
+  const Correction got = correct(Boxes{{1, 2}, {3, 0}}, true, kWidth, 1, kGravity);
   EXPECT_EQ(got.pushes[0], 0) << "kg m: the floor has no part in it";
   EXPECT_NEAR(got.pushes[1], 0.375, 1e-14) << "kg m: upwards on one, downwards on the other";
 }
@@ -132,7 +132,7 @@ TEST(Ex05Column, FramesOpenAColumn) {
   Boxes boxes(kCount, {1, 0});
   double energy = 0;
   for (int frame = 1; frame <= 200; ++frame) {
-    const Steering got = steer(boxes, true, kEnvelope, 0.2, 9.81);
+    const Correction got = correct(boxes, true, kEnvelope, 0.2, 9.81);
     energy += got.energy;
     for (std::size_t i = 0; i < boxes.size(); ++i) {
       boxes[i].gap += got.displaced[i] - (i > 0 ? got.displaced[i - 1] : 0);
@@ -162,7 +162,7 @@ TEST(Ex05Column, AsDantzigHasIt) {
     const fc::lcp::LcpResult exact = fc::lcp::solve_dantzig({A, b});
     ASSERT_EQ(exact.status, fc::lcp::Status::solved) << "trial " << trial << ", of the test itself";
     const fc::VecX d = inverse * J.transpose() * exact.z;
-    const Steering got = steer(boxes, true, kWidth, 0.7, kGravity);
+    const Correction got = correct(boxes, true, kWidth, 0.7, kGravity);
     for (int i = 0; i < count; ++i)
       ASSERT_NEAR(got.displaced[static_cast<std::size_t>(i)], d[i], 1e-9)
           << "m, box " << i << " of " << count << ", trial " << trial
@@ -195,7 +195,7 @@ TEST(Ex05Column, AHundredThousandRoundingsDoNotAdd) {
   for (const double gap : gaps) {
     for (const double share : shares) {
       const long double each = static_cast<long double>(share) * (0.5L * kWidth - gap), size = kCount * each;
-      const Steering got = steer(Boxes(kCount, {1, gap}), true, kWidth, share, kGravity);
+      const Correction got = correct(Boxes(kCount, {1, gap}), true, kWidth, share, kGravity);
       ASSERT_EQ(got.displaced.size(), static_cast<std::size_t>(kCount)) << "displacements: one for each box";
       for (int i = 0; i < kCount; ++i)
         ASSERT_NEAR(static_cast<double>(got.displaced[static_cast<std::size_t>(i)] - (i + 1) * each), 0,

@@ -1,14 +1,13 @@
-// Caught by: Ex01Row.WhatDoesNotArriveIsNoImpact
-// Whoever is fast is an impact, also if it does not come to the envelope in this frame.
+// Caught by: Ex01Row.WhatIsNotThereYetIsLeftAlone
+// Whoever is fast is stopped, also if it is not there yet.
 #include "ex01_row.hpp"
 
 #include <algorithm>
 
 namespace fc::exercises {
 
-bool is_impact(const Envelope& envelope, const Ball& ball) {
-  const double closing = -ball.velocity, way = envelope.width;
-  return ball.restitution > 0 && closing > way / envelope.dt;
+bool is_impact(const Envelope& envelope, const Ball& ball, bool lasts) {
+  return !lasts && ball.gap <= 0.5 * envelope.width && -ball.velocity > envelope.width / envelope.dt;
 }
 
 double allowed(const Envelope& envelope, double gap) {
@@ -16,21 +15,29 @@ double allowed(const Envelope& envelope, double gap) {
 }
 
 double displacement(const Envelope& envelope, double gap) {
-  const double middle = 0.5 * envelope.width;
-  if (gap >= middle) return 0;
-  return std::max(envelope.share * (middle - gap), envelope.least * envelope.width - gap);
+  const double rest_gap = 0.5 * envelope.width;
+  if (gap >= rest_gap) return 0;
+  return std::max(envelope.share * (rest_gap - gap), envelope.least * envelope.width - gap);
 }
 
 Frame rest(const Envelope& envelope, double gravity, Ball& ball) {
-  const double falling = ball.velocity - envelope.dt * gravity;
+  const double half = 0.5 * envelope.dt * gravity, falling = ball.velocity - half;
   Frame frame;
   ball.velocity = std::max(falling, -allowed(envelope, ball.gap));
-  frame.impulse = ball.mass * (ball.velocity - falling);
+  frame.push = ball.mass * (ball.velocity - falling);
   ball.gap += envelope.dt * ball.velocity;
 
-  frame.displaced = displacement(envelope, ball.gap);  // of the gap as it would be at the frame's end
+  frame.displaced = displacement(envelope, ball.gap);  // of the gap as it would be at the plan's end
   ball.gap += frame.displaced;
   frame.energy = ball.mass * gravity * frame.displaced;
+
+  ball.velocity -= half;
+  const bool lasts = frame.push > 0;
+  const bool is_there = ball.gap <= envelope.width;
+  if (!is_there || ball.velocity >= 0) return frame;
+  const double after = is_impact(envelope, ball, lasts) ? -ball.restitution * ball.velocity : 0;
+  frame.stop = ball.mass * (after - ball.velocity);
+  ball.velocity = after;
   return frame;
 }
 

@@ -21,7 +21,7 @@ struct Block {
 // With R_i = r_0 + ... + r_i and x_i = d_i - R_i the rows say that x never falls from box to box, and is at
 // least 0 for the first one. Of such x, the nearest to -R: blocks are pooled while one is before another that
 // wants less.
-Steering steer(std::span<const Box> boxes, bool floor, double width, double share, double gravity) {
+Correction correct(std::span<const Box> boxes, bool floor, double width, double share, double gravity) {
   std::vector<double> sums;  // R, m
   std::vector<Block> blocks;
   double sum = 0;
@@ -43,7 +43,7 @@ Steering steer(std::span<const Box> boxes, bool floor, double width, double shar
   std::vector<double> x;
   for (const Block& block : blocks) x.insert(x.end(), block.count, block.x());
 
-  Steering result;
+  Correction result;
   for (std::size_t i = 0; i < x.size(); ++i) result.displaced.push_back(x[i] + sums[i]);
   result.pushes.assign(x.size(), 0);
   double above = 0;  // kg m

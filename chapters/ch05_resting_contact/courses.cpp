@@ -1,0 +1,231 @@
+#include "ch05_resting_contact/courses.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "ch04_multibody_stepping/sensors.hpp"
+
+namespace fc::resting {
+namespace {
+
+// Boxes are wider than paths by this part of them: paths may still change a little.
+constexpr double kWider = 0.5;
+
+// If pairs are kept: for so many starts, and boxes are wider by this part of a body's reach, too.
+constexpr int kMostStarts = 16;
+constexpr double kWiderIfKept = 0.05;
+
+// Of the margin: contact points of a crowd are searched anew after so much motion.
+constexpr double kAgain = 4;
+
+// The mean of the spin that turns one orientation into another in a time.
+Vec3 mean_spin(const Mat3& from, const Mat3& to, double time) {
+  const Eigen::AngleAxisd turn(to * from.transpose());
+  return turn.angle() / time * turn.axis();
+}
+
+}  // namespace
+
+void Courses::start(const world::World& world, std::span<const Member> all, double now, double length) {
+  now_ = now;
+  length_ = length;
+  checked_ = 0;
+  fresh_ = true;
+  if (keeps(world, all)) {
+    for (std::size_t i = 0; i < members.size(); ++i)
+      set_member(
+          world, i,
+          i < all.size() ? all[i] : Member{members[i].number, world.state_at(members[i].number, now), false});
+    std::fill(moved_.begin(), moved_.end(), 0);
+    for (Candidate& pair : candidates) pair = {pair.contacts, pair.a, pair.b};
+    return;
+  }
+  number_ = contacts_.next_number();
+  age_ = 0;
+  first_ = all.size();
+  for (const Member& member : members) place_of_[at(member.number)] = -1;
+  place_of_.resize(world.bodies.size(), -1);
+  members.clear();
+  drift.clear();
+  last.clear();
+  tracks.clear();
+  moved_.clear();
+  candidates.clear();
+  boxes_.clear();
+  for (const Member& member : all) add_member(world, member);
+}
+
+// Whether the pairs of the last start will do, with those of bodies that leave their boxes: for a while, of the same bodies, if
+// nothing is driven.
+bool Courses::keeps(const world::World& world, std::span<const Member> all) {
+  const bool recent =
+      std::exchange(frame_, contacts_.frame()) + 1 >= contacts_.frame();  // else pairs may be forgotten
+  if (!keep_ || !recent || ++age_ > kMostStarts || first_ != all.size() || boxes_.empty()) return false;
+  for (std::size_t i = 0; i < first_; ++i)
+    if (members[i].number != all[i].number) return false;
+  for (int body = 0; body < static_cast<int>(world.bodies.size()); ++body)
+    if (world.carries(body)) return false;
+  return true;
+}
+
+void Courses::add_member(const world::World& world, const Member& member) {
+  place_of_[at(member.number)] = static_cast<int>(members.size());
+  members.emplace_back();
+  moved_.push_back(0);
+  drift.emplace_back();
+  last.emplace_back();
+  tracks.emplace_back();
+  set_member(world, members.size() - 1, member);
+}
+
+void Courses::set_member(const world::World& world, std::size_t i, const Member& member) {
+  members[i] = member;
+  if (!member.dynamic) {
+    tracks[i] = track_of(world, member.number, now_, length_);
+    members[i].state.velocity = tracks[i].motion.velocity;
+    members[i].state.spin = tracks[i].motion.spin;
+    drift[i] = {tracks[i].motion.velocity, tracks[i].motion.spin};
+    last[i] = {};
+    return;
+  }
+  ca::Motion flight = world.motion(member.number, now_);
+  flight.position = Vec3::Zero();  // so that no digits are lost to where it is
+  Twist& u = drift[i];
+  u.linear = flight.drag == 0 ? Vec3(flight.velocity + 0.5 * length_ * flight.acceleration)
+                              : Vec3(flight.position_at(length_) / length_);
+  u.angular = flight.free || flight.spin_drag > 0
+                  ? mean_spin(flight.rotation, flight.rotation_at(length_), length_)
+                  : flight.spin;
+  last[i] = {flight.velocity_at(length_) - u.linear, flight.spin_at(length_) - u.angular};
+  const double reach = world.shapes[at(world.bodies[at(member.number)].shape)].reach;
+  tracks[i] = straight_track(member.state, u.linear, u.angular, reach, length_);
+}
+
+std::vector<RigidBody> Courses::with(const std::vector<Twist>& velocities) const {
+  std::vector<RigidBody> bodies;
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    bodies.push_back(members[i].state);
+    bodies.back().velocity = velocities[i].linear;
+    bodies.back().spin = velocities[i].angular;
+  }
+  return bodies;
+}
+
+void Courses::go(int member, const Twist& path) {
+  Track& track = tracks[at(member)];
+  if (!members[at(member)].dynamic || (track.velocity == path.linear && track.spin == path.angular)) return;
+  moved_[at(member)] +=
+      length_ * ((path.linear - track.velocity).norm() + track.reach * (path.angular - track.spin).norm());
+  track = straight_track(members[at(member)].state, path.linear, path.angular, track.reach, length_);
+}
+
+world::Bounds Courses::box_of(const world::World& world, int member) const {
+  const Track& t = tracks[at(member)];
+  const std::size_t shape = at(world.bodies[at(members[at(member)].number)].shape);
+  const double turn = std::min(2.0, t.spin_rate * length_) * t.reach;
+  const Vec3 half =
+      (t.start.rotation.cwiseAbs() * world.half_extents[shape]).cwiseMin(Vec3::Constant(t.reach)) +
+      Vec3::Constant(0.5 * contacts_.margin() + turn);
+  return {t.start.position.cwiseMin(t.end.position) - half, t.start.position.cwiseMax(t.end.position) + half};
+}
+
+// By how much the two may come nearer each other.
+double Courses::way(const Candidate& pair) const {
+  const Track &a = tracks[at(pair.a)], &b = tracks[at(pair.b)];
+  return length_ * ((b.velocity - a.velocity).norm() + a.spin_rate * a.reach + b.spin_rate * b.reach);
+}
+
+int Courses::candidate_of(PairContacts* contacts, int a, int b) {
+  if (contacts->plan != number_) {
+    contacts->plan = number_;
+    contacts->place = static_cast<int>(candidates.size());
+    candidates.push_back({contacts, a, b});
+  }
+  return contacts->place;
+}
+
+void Courses::add_pair(const world::World& world, int i, int j, bool far) {
+  PairContacts& contacts = contacts_.pair(members[at(i)].number, members[at(j)].number);
+  const std::size_t before = candidates.size();
+  const bool in_order = contacts.a == members[at(i)].number;
+  const int number = candidate_of(&contacts, in_order ? i : j, in_order ? j : i);
+  if (at(number) == before) update(world, candidates[before], far);
+}
+
+// The pair's contacts at the start.
+void Courses::update(const world::World& world, const Candidate& pair, bool far) {
+  SearchOptions options;
+  options.reach = contacts_.margin() + (far ? way(pair) : 0);
+  if (far) options.again = kAgain * contacts_.margin();
+  contacts_.update(world, *pair.contacts, tracks[at(pair.a)].start, tracks[at(pair.b)].start, options);
+}
+
+// Members whose paths have left their boxes get new ones.
+std::vector<int> Courses::widen(const world::World& world) {
+  std::vector<int> wider;
+  const bool none = boxes_.empty();
+  boxes_.resize(members.size());
+  for (int i = 0; i < static_cast<int>(members.size()); ++i) {
+    if (!members[at(i)].dynamic) continue;
+    const world::Bounds box = box_of(world, i);
+    world::Bounds& wide = boxes_[at(i)];
+    if (!none && (box.low.array() >= wide.low.array()).all() && (box.high.array() <= wide.high.array()).all())
+      continue;
+    const Track& track = tracks[at(i)];
+    const double way = length_ * (track.velocity.norm() + track.spin_rate * track.reach);
+    const Vec3 more =
+        Vec3::Constant(contacts_.margin() + kWider * way + (keep_ ? kWiderIfKept * track.reach : 0));
+    wide = {box.low - more, box.high + more};
+    if (!none) tree_.replace(i, wide);
+    wider.push_back(i);
+  }
+  if (none) tree_.build(boxes_);
+  return wider;
+}
+
+void Courses::find(const world::World& world, bool far) {
+  const bool none = boxes_.empty();
+  if (std::exchange(fresh_, false))
+    for (const Candidate& pair : candidates) {
+      contacts_.use(*pair.contacts);
+      update(world, pair, far);
+    }
+  for (const int i : widen(world)) {
+    others_.clear();
+    tree_.overlapping(boxes_[at(i)], [&](int j) {
+      if (j != i && members[at(j)].dynamic && (!none || j > i)) others_.push_back(j);
+    });
+    std::sort(others_.begin(), others_.end());
+    for (const int j : others_) add_pair(world, i, j, far);
+    others_.clear();
+    world.schedule.overlapping(boxes_[at(i)], [&](int other) {
+      if (!world.yields(other) && !world::is_sensor_pair(world, members[at(i)].number, other))
+        others_.push_back(other);
+    });
+    std::sort(others_.begin(), others_.end());
+    for (const int other : others_) {
+      if (place_of_[at(other)] < 0) {
+        add_member(world, {other, world.state_at(other, now_), false});
+        boxes_.emplace_back();
+      }
+      add_pair(world, i, place_of_[at(other)], far);
+    }
+  }
+}
+
+PathVerdict Courses::check(const world::World& world, const Candidate& pair, const Track& a, const Track& b,
+                           PathOptions options) {
+  ++checked_;
+  constexpr double kTouching = 1.0 / 64;  // of the tolerance
+  const double gap = pair.contacts->gap;
+  options.need = std::min(options.need, 0.5 * gap);
+  if (gap <= kTouching * world.tolerance) {
+    // It started like this, touching: then it need only not become less, but for rounding.
+    const ca::PairPose pose(tracks[at(pair.a)].start, tracks[at(pair.b)].start);
+    options.need = gap - 64 * ca::rounding_term(world.model_of(pair.contacts->a).whole(),
+                                                world.model_of(pair.contacts->b).whole(), pose);
+  }
+  return check_path(world, contacts_, *pair.contacts, a, b, length_, options);
+}
+
+}  // namespace fc::resting

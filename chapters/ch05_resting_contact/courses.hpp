@@ -1,0 +1,102 @@
+// Who goes where in a plan's time, and who comes near whom on the way.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "ch05_resting_contact/island.hpp"
+#include "ch05_resting_contact/path.hpp"
+
+namespace fc::resting {
+
+// Two members that may come near each other.
+struct Candidate {
+  PairContacts* contacts;
+  int a, b;                             // places among the members
+  bool in_contact = false;              // at the start
+  bool checked = false, clear = false;  // whether their paths were looked at, and proved
+  double time = 0;                      // s, if not: when they have come near
+  double slack = 0;                     // m: they are clear as long as the two paths change by less
+  double moved = 0;                     // m, by which the paths had been changed when they were looked at
+};
+
+// The bodies of a plan, and what cannot be moved and is near them, on straight paths with constant spin.
+class Courses {
+ public:
+  // keep: pairs are kept from one start to the next, if it is of the same bodies. Plans of PlanMaker's pairs in contact are
+  // given to it anew, and cannot be.
+  Courses(Contacts& contacts, bool keep) : contacts_(contacts), keep_(keep) {}
+
+  // For `length` seconds from `now` on (s in the frame). Nobody has a path yet.
+  void start(const world::World& world, std::span<const Member> members, double now, double length);
+  // Adds the pairs that may come near each other, and brings their contacts to the start: at first all whose paths by their
+  // mean velocities do, then those of bodies whose paths leave the boxes that were looked at. `far`: contact points are wanted
+  // of convex pairs that may get into contact in the plan's time, too.
+  void find(const world::World& world, bool far);
+  int candidate_of(PairContacts* contacts, int a, int b);
+  // The member goes with these velocities.
+  void go(int member, const Twist& path);
+  // Proves the paths of all pairs that have changed so much since they were proved that this says nothing any more; whether
+  // all are clear. options_of(pair): gaps stay above `need`, or half of what they were.
+  template <class OptionsOf>
+  bool prove(const world::World& world, OptionsOf&& options_of) {
+    bool all = true;
+    for (Candidate& pair : candidates) {
+      const double moved = moved_[at(pair.a)] + moved_[at(pair.b)];
+      const double since = moved - pair.moved;
+      if (!pair.checked || (pair.clear ? since > pair.slack : since > 0)) {
+        const PathVerdict verdict =
+            check(world, pair, tracks[at(pair.a)], tracks[at(pair.b)], options_of(pair));
+        pair.checked = true;
+        pair.clear = verdict.clear;
+        pair.time = verdict.time;
+        pair.slack = verdict.slack;
+        pair.moved = moved;
+      }
+      all = all && pair.clear;
+    }
+    return all;
+  }
+  // One pair, on these paths.
+  PathVerdict check(const world::World& world, const Candidate& pair, const Track& a, const Track& b,
+                    PathOptions options);
+
+  // The members, with these velocities.
+  std::vector<RigidBody> with(const std::vector<Twist>& velocities) const;
+
+  double length() const { return length_; }
+  int checked() const { return checked_; }
+
+  std::vector<Member> members;
+  std::vector<Twist> drift;   // of each: the mean velocities of free flight
+  std::vector<Twist> last;    // what the end of free flight has more than that
+  std::vector<Track> tracks;  // of each
+  std::vector<Candidate> candidates;
+
+ private:
+  bool keeps(const world::World& world, std::span<const Member> all);
+  void add_member(const world::World& world, const Member& member);
+  void set_member(const world::World& world, std::size_t i, const Member& member);
+  void update(const world::World& world, const Candidate& pair, bool far);
+  std::vector<int> widen(const world::World& world);
+  world::Bounds box_of(const world::World& world, int member) const;
+  void add_pair(const world::World& world, int i, int j, bool far);
+  double way(const Candidate& pair) const;
+
+  Contacts& contacts_;
+  bool keep_;
+  bool fresh_ = true;        // nothing was found since the start
+  std::int64_t frame_ = 0;   // of the last start
+  int age_ = 0;              // starts with the same pairs
+  std::size_t first_ = 0;    // members that it was started with
+  std::int64_t number_ = 0;  // of starts
+  double now_ = 0, length_ = 0;
+  std::vector<int> place_of_;  // of each body of the world among the members, or -1
+  std::vector<double> moved_;  // m: of each member, how much its path has been changed at most, in all
+  world::BoundsTree tree_;     // of the boxes of members that can be moved; none of others
+  std::vector<world::Bounds> boxes_;
+  std::vector<int> others_;
+  int checked_ = 0;
+};
+
+}  // namespace fc::resting

@@ -1,0 +1,40 @@
+// What happens to the velocities of an island at one instant.
+#pragma once
+
+#include <functional>
+
+#include "ch05_resting_contact/island.hpp"
+#include "ch05_resting_contact/island_solver.hpp"
+
+namespace fc::resting {
+
+struct InstantOptions {
+  double rest_speed = 0;  // m/s: only if a contact comes in faster does anything bounce
+  double time = 0;        // s in the frame
+  double guess = 0;       // s: for so long a contact's force is taken as a first guess of its impulse
+  std::function<bool(int body)> bounces;  // whether the body may still bounce in this frame
+  IslandOptions solver;
+};
+
+struct InstantResult {
+  bool solved = true;
+  bool impact = false;  // something came in faster than rest_speed
+  std::vector<world::ImpactRecord> records;
+  std::vector<std::uint64_t> keys;  // of their points
+  int contacts = 0, rows = 0, solves = 0, steps = 0;
+  lcp::Status status = lcp::Status::limit;  // if not solved
+  double residual = 0, kinematic_work = 0, energy_gain = 0;
+};
+
+// No contact of the island approaches afterwards. First what lasts: that contacts close at which a plan has pushed is the other
+// half of its force, and no impact. They are stopped, without bounce. Then two stages (Poisson's hypothesis, with a cap):
+//   1. compression   z >= 0 stops whoever approaches: J v1 >= 0, z'J v1 = 0;
+//   2. expansion     each contact gives back what its restitution says, k e_i z_i, with the largest k <= 1 for which this takes
+//                    no more energy than the compression gave: k^2 r'A r <= z'A z, r_i = e_i z_i.
+// With one restitution for all, k is 1 and this is chapter 3's law; with several it cannot gain energy, as that one could. It
+// is an impact, with restitution, if something comes in faster than rest_speed; else all e_i are 0. Who then still approaches is
+// stopped by a last compression. A contact that comes in fast from farther than the rest gap is left alone: it is not there yet.
+InstantResult resolve_instant(const world::World& world, Island& island, double margin, IslandSolver& solver,
+                              const InstantOptions& options);
+
+}  // namespace fc::resting

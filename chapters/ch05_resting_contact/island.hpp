@@ -1,0 +1,79 @@
+// An island: bodies in contact with each other, directly or over others, at one instant.
+#pragma once
+
+#include <vector>
+
+#include "ch05_resting_contact/contacts.hpp"
+#include "ch05_resting_contact/path.hpp"
+
+namespace fc::resting {
+
+// Velocities of a body, m/s and rad/s.
+struct Twist {
+  Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
+};
+
+// A body of an island, or one that cannot be moved and that the island touches.
+struct Member {
+  int number = 0;        // in the world
+  RigidBody state;       // at the instant
+  bool dynamic = false;  // impulses can move it
+};
+
+struct IslandPair {
+  PairContacts* contacts;
+  int a, b;  // places among the members
+};
+
+struct Island {
+  std::vector<Member> members;    // in the order in which they were found
+  std::vector<IslandPair> pairs;  // in contact
+  int dynamic = 0;                // so many of the members can be moved
+  int points() const {
+    int count = 0;
+    for (const IslandPair& pair : pairs) count += static_cast<int>(pair.contacts->points.size());
+    return count;
+  }
+  // So many of them can push at once, at most: six of two bodies.
+  int rank() const {
+    int count = 0;
+    for (const IslandPair& pair : pairs) count += pair.contacts->rank();
+    return count;
+  }
+};
+
+// Finds islands. Bodies' states are those at the instant that the last begin() named.
+class IslandFinder {
+ public:
+  IslandFinder(Contacts& contacts, std::size_t bodies);
+  void begin(double now);
+  // The island of a body that can be moved and is in none since begin(). Bodies that are not in contact: an island of
+  // one body without pairs. Sleeping bodies that it reaches belong to it. So do members of crowds (crowd_of[body] >= 0), but
+  // nobody is looked for from there.
+  Island grow(const world::World& world, int body, const std::vector<int>& crowd_of);
+  bool is_in_island(int body) const { return stamp_[at(body)] >= first_; }
+
+ private:
+  int place_of(const world::World& world, Island& island, int body);
+
+  Contacts& contacts_;
+  double now_ = 0;
+  std::int64_t first_ = 1, island_ = 0;  // numbers of islands: since the last begin(), and the one at hand
+  std::vector<std::int64_t> stamp_;      // of each body: its island's
+  std::vector<int> place_;  // there; of a body that cannot be moved, in the island at hand, or -1
+  std::vector<int> others_;
+};
+
+// How much work it would be to follow bodies from event to event: with so many pairs of which each may come into contact, and
+// so many contact points that can push at once.
+inline double event_work(int arrivals, int rank) {
+  const double rows = 8 + rank;
+  return (1 + arrivals) * rows * rows;
+}
+
+// Groups of bodies that are in contact, or may come into contact with each other within dt seconds from a frame's start on,
+// that would be more than `most_work`. Their boxes are in the schedule.
+std::vector<std::vector<int>> find_crowds(const world::World& world, Contacts& contacts, double dt,
+                                          double most_work);
+
+}  // namespace fc::resting

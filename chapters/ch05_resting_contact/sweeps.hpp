@@ -1,0 +1,88 @@
+// Contacts by the thousand: two problems with one matrix, by projected Gauss-Seidel.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "ch03_impulse_lcp/contact.hpp"
+#include "ch05_resting_contact/island.hpp"
+
+namespace fc::resting {
+
+// What contacts do to the velocities of bodies, and to the velocities with which they go on their paths:
+//   velocities  w = J v + allowed >= 0,  z'w = 0,  v = v_0 + M^-1 J' z    (m/s, N s)
+//   paths       u = J y + room    >= 0,  c'u = 0,  y = y_0 + M^-1 J' c    (m/s, N s)
+// One sweep looks at each row once, for both: the second hides in the time that the first waits for its numbers.
+//
+// Sweeps do not see J and M. With M^-1 = L L' (L lower triangular for the turning part) and D the diagonal of J M^-1 J', they work
+// on the lines of G = D^-1/2 J L, and on what D^1/2 z does to L^-1 v. So a line both tells how fast its contact closes in and how an
+// impulse moves its bodies, it is of length one, and fits a cache line in single precision. What is told is worked out in double.
+class Sweeps {
+ public:
+  void clear();
+  // A body as it is when the impulses act, its v_0 and y_0.
+  void add_body(const RigidBody& body, const Twist& velocity, const Twist& path);
+  // A row, of bodies by their numbers here; returns its own. m/s, and guesses in N s, which only count before run().
+  int add(const lcp::Contact& contact, double allowed, double room, double impulse, double correction);
+  int rows() const { return static_cast<int>(rows_.size()); }
+  int bodies() const { return static_cast<int>(masses_.size()); }
+
+  // So many sweeps of both problems, from the guesses. More if these were so bad that there would be more kinetic energy than
+  // v_0 has; so there never is. Returns how many.
+  int run(int sweeps) { return run<true, true>(sweeps); }
+  // Goes on with one of them alone.
+  int run_velocities(int sweeps) { return run<true, false>(sweeps); }
+  int run_paths(int sweeps) { return run<false, true>(sweeps); }
+  void set_room(int row, double room);
+  // The row's impulse was wrong: it has none from now on. Velocities must be swept again.
+  void drop(int row);
+
+  double impulse(int row) const {
+    return static_cast<double>(of_row(row).impulse) / static_cast<double>(of_row(row).root);
+  }                                   // N s
+  double start_speed(int row) const;  // J v_0, m/s
+  double path_speed(int row) const;   // J y
+  // In double precision, from the impulses.
+  void work_out(std::vector<Twist>& velocities, std::vector<Twist>& paths) const;
+  // The worst |min(z, w)| over the largest |b|, scaled by the diagonal as in chapter 3; of velocities.
+  double residual() const;
+
+ private:
+  using Vec8 = Eigen::Array<float, 8, 1>;  // linear and angular part, and two zeros
+  struct Line {
+    Vec8 a, b;
+  };
+  struct State {  // L^-1 of what impulses have changed
+    Vec8 velocity, path;
+  };
+  struct Row {
+    int a, b;
+    float impulse, correction;  // D^1/2 z, D^1/2 c
+    float allowed, room;        // D^-1/2 (J v_0 + allowed), D^-1/2 (J y_0 + room)
+    float root;                 // D^1/2, kg^-1/2
+    float path_start;           // D^-1/2 J y_0
+  };
+  struct Arms {
+    Vec3 normal, a, b;  // m: r x n
+  };
+  struct Mass {
+    Vec3 place, move, root;  // m; 1/kg along each axis that is free, and its root
+    Mat3 turn, turn_root;    // 1/(kg m^2), and L
+  };
+  const Row& of_row(int row) const { return rows_[at(row)]; }
+  template <bool kVelocities, bool kPaths>
+  int run(int sweeps);
+  template <bool kVelocities, bool kPaths>
+  void sweep();
+  void apply_guesses();
+  bool gains() const;
+
+  std::vector<Row> rows_;
+  std::vector<Line> lines_;
+  std::vector<Arms> arms_;
+  std::vector<Mass> masses_;
+  std::vector<Twist> velocities_, paths_;
+  std::vector<State> states_;
+};
+
+}  // namespace fc::resting
