@@ -44,11 +44,22 @@ std::vector<Effect> explain(const Scene& scene) {
   return list;
 }
 
+// frame: s, its start.
+void tell(const Scene& scene, const resting::Clash& clash, double frame) {
+  const auto of = [&](int body) { return scene.bodies[static_cast<std::size_t>(body)]; };
+  fmt::print(
+      stderr,
+      "{}: this driven body goes into the one of {}, which does not give way either, at {:.6g} s; nothing "
+      "stops it\n",
+      of(clash.driven).where.text(), of(clash.other).where.text(), frame + clash.time);
+}
+
 int run(const Scene& scene, const RunContext& context, Summary& summary) {
   if (!scene.envelope)
     return world::run_scene(scene, context, summary, world::step, true);  // chapter 4's motion, to the byte
   std::unique_ptr<resting::Resting> resting;
   resting::RestReport all, last;
+  int frame = 0, clashes = 0;
   const auto prepare = [&](world::World& world) {
     resting = std::make_unique<resting::Resting>(scene, world, scene.step->dt);
   };
@@ -64,6 +75,9 @@ int run(const Scene& scene, const RunContext& context, Summary& summary) {
     all.correction_energy += report.correction_energy;
     all.correction = std::max(all.correction, report.correction);
     all.largest_island = std::max(all.largest_island, report.largest_island);
+    for (const resting::Clash& clash : report.clashes) tell(scene, clash, frame * scene.step->dt);
+    clashes += static_cast<int>(report.clashes.size());
+    ++frame;
     return report.step;
   };
   const world::MoreColumns more = {
@@ -79,6 +93,7 @@ int run(const Scene& scene, const RunContext& context, Summary& summary) {
   summary.add("energy added by corrections", all.correction_energy, "J");
   summary.add("bodies whose paths were shortened", std::int64_t{all.shortened});
   summary.add("momentum that shortened paths took", all.lost_impulse, "N s");
+  if (clashes > 0) summary.add("driven bodies that went into what cannot give way", std::int64_t{clashes});
   summary.counter("plans", all.plans, 0);
   summary.counter("paths of pairs that were proved", all.checked, 0);
   summary.counter("envelope (pairs whose contacts were searched)", all.searched, 0);

@@ -87,6 +87,8 @@ RestReport Resting::step(world::World& world, const world::Listeners& listeners)
 std::vector<int> Resting::begin(world::World& world, double dt, world::StepReport& report,
                                 const world::Listeners& listeners) {
   dt_ = dt;
+  const std::vector<Clash> clashes = watch_.look(world, contacts_, dt);
+  report_.clashes.insert(report_.clashes.end(), clashes.begin(), clashes.end());
   plans_.clear();
   free_plans_.clear();
   crowds_.begin(world.bodies.size(), find_crowds(world, contacts_, dt, options_.most_work));

@@ -5,6 +5,7 @@
 
 #include "ch05_resting_contact/crowd.hpp"
 #include "ch05_resting_contact/crowd_list.hpp"
+#include "ch05_resting_contact/driven.hpp"
 #include "ch05_resting_contact/envelope.hpp"
 #include "ch05_resting_contact/impact_law.hpp"
 #include "ch05_resting_contact/rest_records.hpp"
@@ -26,7 +27,8 @@ struct RestReport {
       0;              // J, that bodies in contact gained beyond what kinematic bodies did: by corrections of
                       // positions, and by the plans' error, which is of second order
   int shortened = 0;  // bodies of crowds whose paths were shortened
-  double lost_impulse = 0;  // N s, the momentum that this took
+  double lost_impulse = 0;          // N s, the momentum that this took
+  std::vector<Clash> clashes = {};  // of driven bodies, first told in this frame; times in the frame
 };
 
 struct RestOptions {
@@ -85,6 +87,7 @@ class Resting : public world::Planner {
   IslandFinder islands_;
   PlanMaker maker_;
   CrowdPlanner crowd_planner_;
+  DrivenWatch watch_;
   IslandSolver solver_;
   RestOptions options_;
   double frame_, dt_;  // s, of a frame, and of the part of it at hand

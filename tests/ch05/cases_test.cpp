@@ -26,6 +26,11 @@ double potential_of(const Simulation& sim) {
   return sim.world.effects.gravity ? sim.potential() : 0;
 }
 
+#ifdef FC_SANITIZED
+constexpr double kSlower = 30;  // than without sanitizers
+#else
+constexpr double kSlower = 1;
+#endif
 constexpr double kTooSlow = 5;  // s, of a frame: no need to see the rest
 
 // Steps the simulation and watches.
@@ -66,7 +71,7 @@ Laws follow(Simulation& sim, double seconds, const std::function<void()>& look =
     const double now = sim.kinetic() + potential_of(sim);
     worst.rise = std::max(worst.rise, now - before - sim.last.correction_energy);
     worst.highest = std::max(worst.highest, now - (sim.corrected - told) - start);
-    worst.slowest = std::max(worst.slowest, 1e-9 * static_cast<double>(sim.last.step.step_ns));
+    worst.slowest = std::max(worst.slowest, 1e-9 / kSlower * static_cast<double>(sim.last.step.step_ns));
     worst.shortened += sim.last.shortened;
     worst.lost_impulse += sim.last.lost_impulse;
     worst.most_advances = std::max(worst.most_advances, sim.last.step.advances);
@@ -137,9 +142,11 @@ void expect_free_fall_of_a_chain(int arc, int around) {
   EXPECT_LT(laws.slowest, 5) << "s";
 }
 
+#ifndef FC_SANITIZED  // the next one is enough there
 TEST(Cases, ChainHeldAtBothEnds) {
   expect_free_fall_of_a_chain(40, 56);
 }
+#endif
 // With 1,152 triangles instead of 9,184.
 TEST(Cases, ChainOfCoarseLinks) {
   expect_free_fall_of_a_chain(16, 16);

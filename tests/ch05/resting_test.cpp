@@ -284,6 +284,36 @@ TEST(Driven, APlateThatCannotGoOnIsStopped) {
   }
 }
 
+// Nothing stops a driven body that goes into what cannot give way: that is told, once, with the time. One that slides along
+// such a body, as on a floor, goes into nothing.
+TEST(Driven, IntoWhatCannotGiveWayIsTold) {
+  Simulation s(
+      "step: {dt: 0.01, duration: 1}\nenvelope: 5.0e-4\nshapes:\n  box: {box: {size: [1, 1, 1]}, mass: 2}\n"
+      "  floor: {box: {size: [10, 10, 1]}}\n  plate: {box: {size: [0.001, 1, 1]}}\nbodies:\n"
+      "  - {shape: box, kinematic: true, position: [-1.51, 0, 0.5], velocity: [1, 0, 0]}\n"
+      "  - {shape: floor, static: true, position: [0, 0, -0.5]}\n"
+      "  - {shape: plate, static: true, position: [0, 0, 0.5]}\n"
+      "  - {shape: box, kinematic: true, position: [4, 0, 10], velocity: [0, 0, -500]}\n",
+      1 / 60.0);
+  struct Told {
+    int driven, other;
+    double time;
+  };
+  std::vector<Told> told;
+  for (int frame = 0; frame < 150; ++frame) {
+    s.run(1 / 60.0);
+    for (const auto& clash : s.last.clashes)
+      told.push_back({clash.driven, clash.other, frame / 60.0 + clash.time});
+  }
+  ASSERT_EQ(told.size(), 2U);
+  EXPECT_EQ(told[0].driven, 3);
+  EXPECT_EQ(told[0].other, 1) << "within one frame it is through";
+  EXPECT_NEAR(told[0].time, 9.5 / 500, 1e-6);
+  EXPECT_EQ(told[1].driven, 0);
+  EXPECT_EQ(told[1].other, 2);
+  EXPECT_NEAR(told[1].time, 1.0095, 1e-5);
+}
+
 // What meets in the air falls on: nothing carries it. And a wall carries nothing.
 TEST(Flight, IsNotCarriedByWhatItTouches) {
   const std::string shapes =

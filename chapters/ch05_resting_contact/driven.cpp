@@ -1,0 +1,52 @@
+#include "ch05_resting_contact/driven.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "ch04_multibody_stepping/sensors.hpp"
+#include "ch05_resting_contact/path.hpp"
+
+namespace fc::resting {
+namespace {
+
+// s, or nothing if the two keep apart.
+std::optional<double> clash(const world::World& world, Contacts& contacts, int a, int b, double dt) {
+  PairContacts& pair = contacts.pair(a, b);
+  const Track track_a = track_of(world, pair.a, 0, dt), track_b = track_of(world, pair.b, 0, dt);
+  const double way = dt * ((track_b.velocity - track_a.velocity).norm() +
+                           0.5 * dt * (track_b.acceleration - track_a.acceleration).norm());
+  if ((track_b.start.position - track_a.start.position).norm() > track_a.reach + track_b.reach + way)
+    return {};
+  contacts.update(world, pair, track_a.start, track_b.start);
+  if (pair.gap > world.tolerance) {
+    const PathVerdict verdict =
+        check_path(world, contacts, pair, track_a, track_b, dt, {.need = 0.5 * world.tolerance});
+    if (verdict.clear) return {};
+    return verdict.time;
+  }
+  if (!Contacts::convex(world, pair) || !pair.axis_known) return {};
+  const double end = contacts.axis_gap(world, pair, track_a.end, track_b.end);
+  if (end > std::min(0.0, pair.gap) - world.tolerance) return {};
+  return 0.0;
+}
+
+}  // namespace
+
+std::vector<Clash> DrivenWatch::look(const world::World& world, Contacts& contacts, double dt) {
+  std::vector<Clash> clashes;
+  const int count = static_cast<int>(world.bodies.size());
+  for (int a = 0; a < count; ++a) {
+    if (!world.carries(a)) continue;
+    for (int b = 0; b < count; ++b) {
+      if (b == a || world.yields(b) || (world.carries(b) && b < a)) continue;
+      if (world::is_sensor_pair(world, a, b) || told_.contains({a, b})) continue;
+      const std::optional<double> time = clash(world, contacts, a, b, dt);
+      if (!time) continue;
+      told_.insert({a, b});
+      clashes.push_back({a, b, *time});
+    }
+  }
+  return clashes;
+}
+
+}  // namespace fc::resting
