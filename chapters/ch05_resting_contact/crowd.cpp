@@ -11,7 +11,7 @@ namespace {
 // A path is clear if its gap stays above this part of the margin, or half of what it was.
 constexpr double kFloor = 1.0 / 64;
 
-// Of the bodies' kinetic energy, by which plans may add in a frame to what they have.
+// The largest part of their kinetic energy that a crowd's plans may add to it in a frame.
 constexpr double kMostGained = 0.01;
 
 // Pairs of nodes that are looked at in one proof.

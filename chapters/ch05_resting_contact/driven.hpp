@@ -1,4 +1,4 @@
-// Driven bodies go where they are driven to: nothing stops one that goes into a static one, or into another driven one. It is told.
+// A driven body that goes into a static one, or into another driven one: nothing stops it, so the program has to say so.
 #pragma once
 
 #include <set>
@@ -17,8 +17,8 @@ struct Clash {
 
 class DrivenWatch {
  public:
-  // The clashes of the next dt seconds; each pair is told once. Those that start in touch clash if they go deeper by more than
-  // the tolerance.
+  // The clashes of the next dt seconds, each pair only the first time. A pair that touches at the start clashes if its overlap
+  // grows by more than the tolerance; a pair with a mesh that touches at the start is not looked at.
   std::vector<Clash> look(const world::World& world, Contacts& contacts, double dt);
 
  private:

@@ -46,12 +46,12 @@ std::vector<Effect> explain(const Scene& scene) {
 
 // frame: s, its start.
 void tell(const Scene& scene, const resting::Clash& clash, double frame) {
-  const auto of = [&](int body) { return scene.bodies[static_cast<std::size_t>(body)]; };
+  const auto where = [&](int body) { return scene.bodies[static_cast<std::size_t>(body)].where.text(); };
   fmt::print(
       stderr,
       "{}: this driven body goes into the one of {}, which does not give way either, at {:.6g} s; nothing "
       "stops it\n",
-      of(clash.driven).where.text(), of(clash.other).where.text(), frame + clash.time);
+      where(clash.driven), where(clash.other), frame + clash.time);
 }
 
 int run(const Scene& scene, const RunContext& context, Summary& summary) {

@@ -87,8 +87,10 @@ RestReport Resting::step(world::World& world, const world::Listeners& listeners)
 std::vector<int> Resting::begin(world::World& world, double dt, world::StepReport& report,
                                 const world::Listeners& listeners) {
   dt_ = dt;
-  const std::vector<Clash> clashes = watch_.look(world, contacts_, dt);
-  report_.clashes.insert(report_.clashes.end(), clashes.begin(), clashes.end());
+  for (Clash clash : watch_.look(world, contacts_, dt)) {
+    clash.time += world.part_start;
+    report_.clashes.push_back(clash);
+  }
   plans_.clear();
   free_plans_.clear();
   crowds_.begin(world.bodies.size(), find_crowds(world, contacts_, dt, options_.most_work));

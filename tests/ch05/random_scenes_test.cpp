@@ -16,8 +16,10 @@ namespace {
 
 #ifdef FC_SANITIZED
 constexpr int kScenes = 10;
+constexpr double kBusy = 1000;
 #else
 constexpr int kScenes = 60;
+constexpr double kBusy = 100;
 #endif
 
 using namespace fc_test;
@@ -196,9 +198,10 @@ std::string broken_by(Worst& worst, const fc::Scene& scene) {
     if (depth > 1e-12) fault(frame, fmt::format("an overlap of {:.3g} m", depth));
     worst.ms += 1e-6 * static_cast<double>(report.step.step_ns) / scene.step->frames;
   }
-  // What is asked for is 5 ms a frame and ten bodies; that is for a quiet machine, and code that nothing slows.
-  const double allowed = std::max(5.0, 0.5 * static_cast<double>(world.bodies.size()));
-  if (std::getenv("FC_STRICT") && worst.ms > allowed)
+  // What is asked for is 5 ms a frame and ten bodies, on a quiet machine (FC_STRICT=1); others may be busy.
+  const double allowed =
+      (std::getenv("FC_STRICT") ? 1 : kBusy) * std::max(5.0, 0.5 * static_cast<double>(world.bodies.size()));
+  if (worst.ms > allowed)
     fault(0, fmt::format("{:.1f} ms a frame for {} bodies", worst.ms, world.bodies.size()));
   return faults;
 }

@@ -1,6 +1,7 @@
 // Resting contact against what is known of it: weights, slopes, the end of Zeno's bounces.
 #include "ch05_resting_contact/resting.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -284,6 +285,30 @@ TEST(Driven, APlateThatCannotGoOnIsStopped) {
   }
 }
 
+// A box at rest is hit from the side: it slides away, and stays down. The half of its weight that an instant still has to give is
+// no impact, and does not bounce.
+TEST(Impact, WhatRestsDoesNotHop) {
+  for (const double restitution : {0.0, 0.5, 1.0}) {
+    Simulation s(
+        fmt::format(
+            "step: {{dt: 0.01, duration: 1}}\nenvelope: 5.0e-4\nrestitution: {}\ngravity: [0, 0, -10]\n"
+            "shapes:\n  box: {{box: {{size: [1, 1, 1]}}, mass: 2}}\n"
+            "  ball: {{sphere: {{radius: 0.1}}, mass: 1}}\n  floor: {{box: {{size: [40, 40, 1]}}}}\nbodies:\n"
+            "  - {{shape: floor, static: true, position: [0, 0, -0.5]}}\n"
+            "  - {{shape: box, position: [0, 0, 0.50025]}}\n"
+            "  - {{shape: ball, position: [-1.2, 0, 0.50025], velocity: [3, 0, 1]}}\n",
+            restitution),
+        1 / 30.0);
+    double fastest = 0;  // m/s upwards, right after an instant
+    for (int frame = 0; frame < 15; ++frame)
+      s.run(1 / 30.0, {.instant = [&](const fc::world::World& world, double) {
+              fastest = std::max(fastest, world.bodies[1].state.velocity.z());
+            }});
+    EXPECT_GT(s.body(1).velocity.x(), 0.9) << restitution << ": it was hit";
+    EXPECT_LE(fastest, 1e-3) << restitution;
+  }
+}
+
 // Nothing stops a driven body that goes into what cannot give way: that is told, once, with the time. One that slides along
 // such a body, as on a floor, goes into nothing.
 TEST(Driven, IntoWhatCannotGiveWayIsTold) {
@@ -312,6 +337,27 @@ TEST(Driven, IntoWhatCannotGiveWayIsTold) {
   EXPECT_EQ(told[1].driven, 0);
   EXPECT_EQ(told[1].other, 2);
   EXPECT_NEAR(told[1].time, 1.0095, 1e-5);
+}
+
+// Times are those of the frame, though a row of a path cuts it in parts.
+TEST(Driven, IsToldInTimeOfTheFrame) {
+  const auto file = scratch("driven") / "path.csv";
+  std::ofstream(file)
+      << "t,px,py,pz,qw,qx,qy,qz\n0,0,0,0,1,0,0,0\n0.505,0,0,0,1,0,0,0\n1.505,1,0,0,1,0,0,0\n";
+  Simulation s(
+      "step: {dt: 0.01, duration: 1}\nenvelope: 5.0e-4\nshapes:\n  box: {box: {size: [1, 1, 1]}, mass: 2}\nbodies:\n"
+      "  - {shape: box, kinematic: true, path: " +
+          file.string() +
+          "}\n  - {shape: box, static: true, position: [1.005, 0, 0]}\n"
+          "  - {shape: box, position: [9, 0, 0]}\n",
+      1 / 60.0);
+  for (int frame = 0; frame < 30; ++frame) {
+    s.run(1 / 60.0);
+    ASSERT_TRUE(s.last.clashes.empty()) << frame;
+  }
+  s.run(1 / 60.0);
+  ASSERT_EQ(s.last.clashes.size(), 1U);
+  EXPECT_NEAR(s.last.clashes[0].time, 0.51 - 0.5, 1e-5);
 }
 
 // What meets in the air falls on: nothing carries it. And a wall carries nothing.
