@@ -25,11 +25,13 @@ struct Simulation {
   double corrected = 0;            // J, all frames
   double smallest_gap = INFINITY;  // m, certified, of all frames' pairs
   double penetration = 0;          // m
+  double residual = 0;             // of all frames' problems, the worst
   fc::resting::RestReport last;
 
-  Simulation(const fc::Scene& scene_, double dt_)
-      : scene(scene_), world(fc::world::build_world(scene)), dt(dt_), resting(scene, world, dt_) {}
-  Simulation(const std::string& text, double dt_) : Simulation(read(text), dt_) {}
+  Simulation(const fc::Scene& scene_, double dt_, const fc::resting::RestOptions& options = {})
+      : scene(scene_), world(fc::world::build_world(scene)), dt(dt_), resting(scene, world, dt_, options) {}
+  Simulation(const std::string& text, double dt_, const fc::resting::RestOptions& options = {})
+      : Simulation(read(text), dt_, options) {}
 
   static fc::Scene read(const std::string& text) {
     const auto file = scratch("scenes") / "scene.yaml";
@@ -43,10 +45,11 @@ struct Simulation {
     corrected += last.correction_energy;
     smallest_gap = std::min(smallest_gap, last.step.min_gap);
     penetration = std::max(penetration, last.step.max_penetration);
+    residual = std::max(residual, last.step.lcp_residual);
   }
-  void run(double seconds) {
+  void run(double seconds, const fc::world::Listeners& listeners = {}) {
     const int frames = static_cast<int>(std::lround(seconds / dt));
-    for (int i = 0; i < frames; ++i) step();
+    for (int i = 0; i < frames; ++i) step(listeners);
   }
   double time() const { return frame * dt; }
   const fc::RigidBody& body(int i) const { return world.bodies[static_cast<std::size_t>(i)].state; }
