@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -10,31 +11,43 @@
 
 namespace fc {
 
-// The scene's list of pairs, sorted to be looked up.
+// The scene's list of pairs, sorted to be looked up. shape_a, shape_b: indices into the shapes.
 class PairRules {
  public:
   PairRules() = default;
-  explicit PairRules(const Scene& scene) {
-    for (const PairSpec& pair : scene.pairs)
-      restitutions_.push_back({{pair.shape_a, pair.shape_b}, pair.restitution});
-    std::sort(restitutions_.begin(), restitutions_.end());
+  explicit PairRules(const Scene& scene) : pairs_(scene.pairs) {
+    std::sort(pairs_.begin(), pairs_.end(),
+              [](const PairSpec& p, const PairSpec& q) { return names(p) < names(q); });
   }
 
-  // The list's value, or the larger of the two shapes' own. shape_a, shape_b: indices into the shapes.
+  // The list's value, or the larger of the two shapes' own.
   double restitution(const std::vector<Shape>& shapes, int shape_a, int shape_b) const {
-    if (!restitutions_.empty()) {
-      const std::pair<int, int> names = std::minmax(shape_a, shape_b);
-      const auto found = std::lower_bound(restitutions_.begin(), restitutions_.end(), names,
-                                          [](const Entry& e, const auto& key) { return e.first < key; });
-      if (found != restitutions_.end() && found->first == names) return found->second;
-    }
+    if (const PairSpec* pair = find(shape_a, shape_b); pair != nullptr && pair->restitution)
+      return *pair->restitution;
     return std::max(shapes[static_cast<std::size_t>(shape_a)].restitution,
                     shapes[static_cast<std::size_t>(shape_b)].restitution);
   }
 
+  // The list's value, or the geometric mean of the two shapes' own. Not two roots: of equal values the mean is exact.
+  double friction(const std::vector<Shape>& shapes, int shape_a, int shape_b) const {
+    if (const PairSpec* pair = find(shape_a, shape_b); pair != nullptr && pair->friction)
+      return *pair->friction;
+    const double a = shapes[static_cast<std::size_t>(shape_a)].friction,
+                 b = shapes[static_cast<std::size_t>(shape_b)].friction;
+    return a == b ? a : std::sqrt(a * b);
+  }
+
  private:
-  using Entry = std::pair<std::pair<int, int>, double>;
-  std::vector<Entry> restitutions_;
+  static std::pair<int, int> names(const PairSpec& pair) { return {pair.shape_a, pair.shape_b}; }
+  const PairSpec* find(int shape_a, int shape_b) const {
+    const std::pair<int, int> key = std::minmax(shape_a, shape_b);
+    const auto found =
+        std::lower_bound(pairs_.begin(), pairs_.end(), key,
+                         [](const PairSpec& pair, const auto& wanted) { return names(pair) < wanted; });
+    return found != pairs_.end() && names(*found) == key ? &*found : nullptr;
+  }
+
+  std::vector<PairSpec> pairs_;
 };
 
 }  // namespace fc

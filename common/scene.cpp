@@ -81,6 +81,7 @@ bool read_switch(const Section& root, const char* key) {
 void read_effects(const Section& root, Scene& scene) {
   if (root.has("gravity")) scene.gravity = root.get(vector_value, "gravity");
   if (root.has("restitution")) scene.restitution = root.get(number_value, "restitution");
+  if (root.has("friction")) scene.friction = root.get(number_value, "friction");
   if (root.has("envelope")) scene.envelope = root.get(number_value, "envelope");
   scene.gyroscopic = read_switch(root, "gyroscopic");
   if (root.has("drag")) {

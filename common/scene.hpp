@@ -63,6 +63,7 @@ struct ShapeSpec {
   std::optional<Mat3> inertia;         // kg m^2 about the centre of mass, shape axes; needs mass
   std::optional<Vec3> center_of_mass;  // m, shape frame; only with inertia
   std::optional<double> restitution;   // [0, 1], overrides the scene's
+  std::optional<double> friction;      // Coulomb's, >= 0, overrides the scene's
   SourceMark where;                    // the shape's name
   SourceMark geometry_where;           // the value of its sphere/box/.../mesh/parts key
 };
@@ -90,10 +91,11 @@ struct BodySpec {
   SourceMark where;                     // the list item it came from
 };
 
-// What two shapes do to each other, instead of the rule for pairs.
+// What two shapes do to each other, instead of the rules for pairs.
 struct PairSpec {
-  int shape_a = 0, shape_b = 0;  // indices into Scene::shapes, ascending; may be equal
-  double restitution = 0;        // [0, 1]
+  int shape_a = 0, shape_b = 0;       // indices into Scene::shapes, ascending; may be equal
+  std::optional<double> restitution;  // [0, 1]
+  std::optional<double> friction;     // Coulomb's, >= 0
   SourceMark where;
 };
 
@@ -148,6 +150,7 @@ struct Scene {
   std::optional<StepSpec> step;
   std::optional<Vec3> gravity;        // m/s^2
   std::optional<double> restitution;  // [0, 1]
+  std::optional<double> friction;     // Coulomb's, >= 0
   bool gyroscopic = false;
   std::optional<DragSpec> drag;
   std::optional<SleepSpec> sleep;

@@ -116,7 +116,8 @@ std::vector<PairSpec> read_pairs(const Section& scene, const std::vector<ShapeSp
     PairSpec spec;
     std::tie(spec.shape_a, spec.shape_b) =
         std::minmax({shape_index(pair, "a", index), shape_index(pair, "b", index)});
-    spec.restitution = pair.get(number_value, "restitution");
+    if (pair.has("restitution")) spec.restitution = pair.get(number_value, "restitution");
+    if (pair.has("friction")) spec.friction = pair.get(number_value, "friction");
     spec.where = pair.place().mark();
     for (const PairSpec& other : pairs)
       if (other.shape_a == spec.shape_a && other.shape_b == spec.shape_b)

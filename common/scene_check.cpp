@@ -11,6 +11,8 @@
 namespace fc {
 namespace {
 
+constexpr std::string_view kUnless = "required unless ";
+
 class KeyChecker {
  public:
   KeyChecker(const YamlNode& scene, int chapter) : scene_(scene), chapter_(chapter) {}
@@ -97,7 +99,9 @@ class KeyChecker {
   void check_required(const YamlNode& map, const std::string& pattern, const std::string& path) const {
     for (const std::string& name : scene_keys_below(pattern, chapter_)) {
       const SceneKey& key = *find_scene_key(pattern.empty() ? name : pattern + "." + name);
-      if (key.fallback != "required" || map.find(name)) continue;
+      const bool needed = key.fallback == "required" || (key.fallback.starts_with(kUnless) &&
+                                                         !map.find(key.fallback.substr(kUnless.size())));
+      if (!needed || map.find(name)) continue;
       refuse(map.place, fmt::format("missing key {}{}; add e.g. {}: {}", in_quotes(name),
                                     path.empty() ? "" : " in " + in_quotes(path), name, key.example));
     }

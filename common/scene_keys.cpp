@@ -12,6 +12,7 @@ constexpr Range any{-1e9, 1e9};
 constexpr Range size{1e-9, 1e9};
 constexpr Range positive{1e-18, 1e18};
 constexpr Range fraction{0, 1};
+constexpr Range coefficient{0, 1e6};
 
 // clang-format off
 std::vector<SceneKey> build_table() {
@@ -36,10 +37,12 @@ std::vector<SceneKey> build_table() {
   {"sleep.speed", 4, on, "0.01", number, "m/s", {0, 1e9}, "No point of a body that falls asleep is faster.", "0.01", {}},
   {"envelope", 5, on, none, number, "m", {0, 1e3}, "Bodies nearer than this are in contact, and rest at half of it; 0: a thousandth of the smallest reach of a shape that moves.", "5.0e-4", {}},
   {"restitution", 3, on, "0", number, "1", fraction, "Part of the approach speed that an impact returns; a pair takes the larger of its shapes' values.", "0.5", {}, 0, "lcp"},
-  {"pairs", 3, on, none, list, "", {}, "What two shapes do to each other, instead of the rule that takes the larger value.", "[{a: ice, b: steel, restitution: 0.1}]", {}, 0, "lcp"},
+  {"friction", 6, on, none, number, "1", coefficient, "Coulomb's coefficient; a pair takes the geometric mean of its shapes' values. Absent everywhere, no friction is computed.", "0.5", {}},
+  {"pairs", 3, on, none, list, "", {}, "What two shapes do to each other, instead of the rules that combine their own values.", "[{a: ice, b: steel, restitution: 0.1}]", {}, 0, "lcp"},
   {"pairs[].a", 3, on, required, text, "", {}, "Name of a shape.", "ice", {}},
   {"pairs[].b", 3, on, required, text, "", {}, "Name of the other shape, or the same.", "steel", {}},
-  {"pairs[].restitution", 3, on, required, number, "1", fraction, "Restitution between bodies of the two shapes.", "0.1", {}},
+  {"pairs[].restitution", 3, on, "required unless friction", number, "1", fraction, "Restitution between bodies of the two shapes.", "0.1", {}},
+  {"pairs[].friction", 6, on, "the rule for two shapes", number, "1", coefficient, "Coulomb's coefficient between bodies of the two shapes.", "0.02", {}},
   {"ccd", 1, on, none, section, "", {}, "Continuous collision detection.", "{tolerance: 1.0e-6}", {}, 3},
   {"ccd.tolerance", 1, on, "1e-6", number, "m", {0, 1e3, true}, "Gap at which two bodies are in contact.", "1.0e-6", {}, 3},
   {"ccd.bound", 1, 1, "second_order", choice, "", {}, "Motion bound, from the plainest to the sharpest; chapter 2 has its own.", "second_order", {"naive", "directional", "projected", "second_order"}, 0, "linear"},
@@ -80,6 +83,7 @@ std::vector<SceneKey> build_table() {
   {"shapes.<name>.inertia", 1, on, "of a uniform solid", inertia, "kg m^2", {-1e18, 1e18}, "Inertia about the centre of mass, along the shape's axes; needs mass.", "[0.1, 0.1, 0.1]", {}},
   {"shapes.<name>.center_of_mass", 1, on, "of a uniform solid", vector3, "m", any, "Centre of mass in the shape's frame; needs inertia.", "[0, 0, 0]", {}},
   {"shapes.<name>.restitution", 3, on, "the scene's", number, "1", fraction, "Overrides the scene's restitution.", "0.5", {}},
+  {"shapes.<name>.friction", 6, on, "the scene's", number, "1", coefficient, "Overrides the scene's coefficient of friction.", "0.5", {}},
 
   {"bodies", 1, on, bodies_needed, list, "", {}, "Bodies, numbered from 0 in file order; exactly two in chapters 1 and 2.", "[{shape: ball}]", {}},
   {"bodies[].shape", 1, on, required, text, "", {}, "Name of the body's shape.", "ball", {}},
@@ -150,7 +154,7 @@ const std::vector<SceneKey>& scene_keys() {
 }
 
 const std::vector<LaterName>& later_names() {
-  static const std::vector<LaterName> names = {{"friction", 6, false}};
+  static const std::vector<LaterName> names = {{"joints", 7, false}};
   return names;
 }
 
@@ -182,7 +186,8 @@ const LaterName* find_later_name(const std::string& name) {
 
 std::string chapter_title(int chapter) {
   static const std::vector<std::string> titles = {"convex advancement", "hull hierarchy",  "impulse LCP",
-                                                  "multibody stepping", "resting contact", "friction"};
+                                                  "multibody stepping", "resting contact", "friction",
+                                                  "joints"};
   const auto index = static_cast<std::size_t>(chapter - 1);
   return "chapter " + std::to_string(chapter) + (index < titles.size() ? " (" + titles[index] + ")" : "");
 }

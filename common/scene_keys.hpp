@@ -45,7 +45,8 @@ struct SceneKey {
   std::string path;  // "ccd.tolerance"; "shapes.<name>.mass" of every shape; "bodies[].spin" of every body
   int first = 1;     // the chapters that know it
   int last = all_later_chapters;
-  std::string fallback;  // "required" (checked), or when it is required in words, or the default
+  // "required" or "required unless KEY" (of the same section), both checked; or when it is required, in words; or the default.
+  std::string fallback;
   KeyType type = KeyType::section;
   std::string unit;
   Range range;

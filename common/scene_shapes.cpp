@@ -150,6 +150,7 @@ std::vector<ShapeSpec> read_shapes(const Section& scene, const SceneSource& sour
     read_geometry(shape, kind, source, spec);
     read_mass(shape, spec);
     if (shape.has("restitution")) spec.restitution = shape.get(number_value, "restitution");
+    if (shape.has("friction")) spec.friction = shape.get(number_value, "friction");
     shapes.push_back(std::move(spec));
   }
   return shapes;

@@ -290,8 +290,10 @@ Shape build_shape(const ShapeSpec& spec, double scene_restitution) {
 std::vector<Shape> build_shapes(const Scene& scene, bool masses_needed) {
   std::vector<Shape> shapes;
   shapes.reserve(scene.shapes.size());
-  for (const ShapeSpec& spec : scene.shapes)
+  for (const ShapeSpec& spec : scene.shapes) {
     shapes.push_back(build_shape(spec, scene.restitution.value_or(0)));
+    shapes.back().friction = spec.friction.value_or(scene.friction.value_or(0));
+  }
   if (!masses_needed) return shapes;
   for (const BodySpec& body : scene.bodies) {
     const ShapeSpec& spec = scene.shapes.at(body.shape);

@@ -43,6 +43,7 @@ struct Shape {
   // or "mass, of the convex hull".
   std::string mass_source;
   double restitution = 0;  // the shape's own, or the scene's, or 0
+  double friction = 0;     // likewise
   MeshReport report;       // meshes only
 
   bool convex() const { return kind != Kind::mesh && kind != Kind::compound; }

@@ -1,6 +1,8 @@
 // Names of bodies, turns by axis and angle, and what two shapes do to each other.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include <numbers>
 
 #include "common/pair_rules.hpp"
@@ -95,6 +97,22 @@ TEST(ScenePairs, StandInsteadOfTheRule) {
   EXPECT_EQ(rules.restitution(shapes, 1, 1), 0.2);  // not in the list
 }
 
+TEST(ScenePairs, FrictionIsTheGeometricMeanUnlessThePairSaysMore) {
+  const auto friction = [](const std::vector<std::string>& set, int a, int b) {
+    const fc::Scene scene = read_text(two_shapes, 6, set);
+    return fc::PairRules(scene).friction(fc::build_shapes(scene, true), a, b);
+  };
+  EXPECT_EQ(friction({}, 0, 1), 0);
+  EXPECT_EQ(friction({"friction=0.3"}, 0, 1), 0.3);
+  EXPECT_EQ(friction({"friction=0.9", "shapes.ice.friction=0.4"}, 0, 1), std::sqrt(0.9 * 0.4));
+  EXPECT_EQ(friction({"friction=0.9", "shapes.ice.friction=0"}, 0, 1), 0);
+  const std::vector<std::string> pair = {"friction=0.9", "pairs=[{a: ice, b: steel, friction: 0.02}]"};
+  EXPECT_EQ(friction(pair, 1, 0), 0.02);
+  EXPECT_EQ(friction(pair, 1, 1), 0.9);
+  const fc::Scene scene = read_text(two_shapes, 6, pair);  // a pair without restitution keeps the rule
+  EXPECT_EQ(fc::PairRules(scene).restitution(fc::build_shapes(scene, true), 0, 1), 0.9);
+}
+
 TEST(ScenePairs, AreCheckedAsTheRest) {
   const auto with = [](const std::string& pairs, int chapter = 4) {
     return refusal("pairs:\n  - " + pairs + "\n" + two_shapes, chapter);
@@ -105,8 +123,9 @@ TEST(ScenePairs, AreCheckedAsTheRest) {
   EXPECT_NE(with("{a: ice, b: steel, restitution: 0.1}\n  - {a: steel, b: ice, restitution: 0.2}")
                 .find("the pair of 'steel' and 'ice' stands at"),
             std::string::npos);
-  EXPECT_EQ(with("{a: ice, b: steel, restitution: 0.1, friction: 0.2}"),
-            ":2:42: 'friction' comes with chapter 6 (friction); remove it");
+  EXPECT_EQ(
+      with("{a: ice, b: steel, restitution: 0.1, friction: 0.2}"),
+      ":2:42: 'friction' comes with chapter 6 (friction); remove it, or run the scene with that chapter");
   EXPECT_NE(with("{a: ice, b: steel}").find("missing key 'restitution' in 'pairs.0'"), std::string::npos);
   EXPECT_NE(with("{a: ice, b: steel, restitution: 2}").find("out of range [0, 1]"), std::string::npos);
   EXPECT_EQ(

@@ -170,7 +170,9 @@ TEST(SceneSet, SetsWhatTheFileHasAndWhatItLeavesOut) {
 TEST(SceneSet, IsCheckedAsTheFileIs) {
   const auto set = [](const char* text) { return refusal(one_ball, 4, {text}); };
   EXPECT_EQ(set("gravty=1"), "--set gravty=1: unknown key 'gravty'; the nearest known key is 'gravity'");
-  EXPECT_EQ(set("friction=0.5"), "--set friction=0.5: 'friction' comes with chapter 6 (friction); remove it");
+  EXPECT_EQ(
+      set("friction=0.5"),
+      "--set friction=0.5: 'friction' comes with chapter 6 (friction); remove it, or run the scene with that chapter");
   EXPECT_EQ(set("restitution=2"),
             "--set restitution=2: 'restitution' is 2, out of range [0, 1]; write e.g. restitution: 0.5");
   EXPECT_EQ(set("step.dt="),
