@@ -327,10 +327,10 @@ Island touching_island(const World& world, const Pair& pair, double now, StepRep
   };
   // Two bodies that stay where they are have no pair in the schedule; if something hits one, they matter.
   const auto add_contacts_at_rest = [&](int body) {
-    if (!world.stays(body)) return;
+    if (!world.is_stationary(body)) return;
     std::vector<int> others;
     world.schedule.overlapping(world.swept_bounds(body, now, now), [&](int other) {
-      if (other != body && world.stays(other) && world.schedule.find(body, other) < 0)
+      if (other != body && world.is_stationary(other) && world.schedule.find(body, other) < 0)
         others.push_back(other);
     });
     std::sort(others.begin(), others.end());

@@ -166,7 +166,8 @@ class Stepper {
     for (const lcp::Contact& contact : island.contacts)
       for (const int number : {contact.body_a, contact.body_b}) {
         const Body& body = world_.bodies[number];
-        if (!world_.yields(number) || body.state.free_moves != Vec3::Ones() || body.asleep || is_still(body))
+        if (!world_.is_dynamic(number) || body.state.free_moves != Vec3::Ones() || body.asleep ||
+            is_still(body))
           return false;
       }
     return true;
@@ -175,7 +176,7 @@ class Stepper {
   // Adds the kinematic bodies that move into a contact; `lies` becomes false if one moves there at all.
   void stop_pushers(const lcp::Contact& contact, double now, std::vector<int>& stopped, bool& lies) const {
     for (const int body : {contact.body_a, contact.body_b}) {
-      if (!world_.carries(body)) continue;
+      if (!world_.is_moving_kinematic(body)) continue;
       lies = false;
       const double towards_b = contact.normal.dot(world_.state_at(body, now).velocity_at(contact.point));
       const bool into = body == contact.body_a ? towards_b > 0 : towards_b < 0;

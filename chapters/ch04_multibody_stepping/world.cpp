@@ -76,7 +76,8 @@ void refuse_overlaps(const World& world, const Scene& scene) {
   for (int a = 0; a < count; ++a) {
     std::vector<int> others;
     tree.overlapping(boxes[a], [&](int b) {
-      if (b > a && (world.yields(a) || world.yields(b)) && !is_sensor_pair(world, a, b)) others.push_back(b);
+      if (b > a && (world.is_dynamic(a) || world.is_dynamic(b)) && !is_sensor_pair(world, a, b))
+        others.push_back(b);
     });
     std::sort(others.begin(), others.end());
     for (const int b : others) refuse_overlap(world, scene, a, b);
@@ -166,10 +167,10 @@ RigidBody World::state_at(int body, double time) const {
   RigidBody state = bodies[body].state;
   const double elapsed = time - bodies[body].time;
   const Body& b = bodies[body];
-  if (elapsed == 0 || (b.plan.number < 0 && stays(body))) return state;
+  if (elapsed == 0 || (b.plan.number < 0 && is_stationary(body))) return state;
   ca::Motion motion(as_it_moves(b, state));
   const bool planned = b.plan.number >= 0;
-  if (yields(body) && !b.held && !b.asleep && !planned) add_effects(body, motion);
+  if (is_dynamic(body) && !b.held && !b.asleep && !planned) add_effects(body, motion);
   if (b.held && b.group >= 0) {  // forces change the velocities that it keeps, too
     add_forces(b, motion);
     ca::Motion kept(state);
@@ -201,7 +202,7 @@ void World::set_course(int body, const RigidBody& state, double time) {
   b.plan = {};
   b.group = -1;
   b.group_velocity = Vec3::Zero();
-  if (!effects.gyroscopic || !yields(body) || state.free_turns != Vec3::Ones()) return;
+  if (!effects.gyroscopic || !is_dynamic(body) || state.free_turns != Vec3::Ones()) return;
   ca::Motion motion(state);
   motion.turn_freely(principal[b.shape]);
   b.free = motion.free;
@@ -232,9 +233,9 @@ ca::Motion World::course(int body, double time) const {
   const Body& b = bodies[body];
   ca::Motion path;
   path.position = b.state.position;
-  if (stays(body)) return path;
+  if (is_stationary(body)) return path;
   path.velocity = as_it_moves(b, b.state).velocity;
-  if (yields(body) && (!b.held || b.group >= 0) && !b.asleep && b.plan.number < 0) add_forces(b, path);
+  if (is_dynamic(body) && (!b.held || b.group >= 0) && !b.asleep && b.plan.number < 0) add_forces(b, path);
   const double elapsed = time - b.time;
   const Vec3 position = path.position_at(elapsed), velocity = path.velocity_at(elapsed);
   path.position = position;
@@ -248,7 +249,7 @@ Bounds World::swept_bounds(int body, double from, double to) const {
   const double end = to - from;
   // What the body fills about its centre: a box if it does not turn, a ball if it does.
   const Body& b = bodies[body];
-  const bool turns = !stays(body) && as_it_moves(b, b.state).spin != Vec3::Zero();
+  const bool turns = !is_stationary(body) && as_it_moves(b, b.state).spin != Vec3::Zero();
   const bool ball = turns || ball_radius[b.shape] > 0;
   const Vec3 half = ball ? Vec3(Vec3::Constant(shapes[b.shape].reach))
                          : Vec3(b.state.orientation.toRotationMatrix().cwiseAbs() * half_extents[b.shape]);

@@ -100,8 +100,8 @@ struct World {
   ca::Motion motion(int body, double time) const;
   // The body's state moved to a time in the frame.
   RigidBody state_at(int body, double time) const;
-  // Whether it stays where it is until the frame's end, if nothing hits it.
-  bool stays(int body) const {
+  // Whether it stays where it is until the frame's end, if nothing hits it. (It may have a velocity that it does not follow.)
+  bool is_stationary(int body) const {
     const Body& b = bodies[body];
     if ((b.held && b.group < 0) || b.asleep) return true;
     const bool falls =
@@ -116,21 +116,22 @@ struct World {
   // Whether a plan has proved already that two bodies keep apart.
   bool planned_apart(int a, int b) const {
     const int plan_a = bodies[a].plan.number, plan_b = bodies[b].plan.number;
-    return (plan_a >= 0 && (plan_a == plan_b || !yields(b))) || (plan_b >= 0 && !yields(a));
+    return (plan_a >= 0 && (plan_a == plan_b || !is_dynamic(b))) || (plan_b >= 0 && !is_dynamic(a));
   }
   // Whether an impulse at the body's surface can turn it, or its spin moves its surface along the normal.
   bool turns(int body) const { return effects.arms || ball_radius[bodies[body].shape] == 0; }
   // Whether two bodies are to be asked for contacts at all: one of them moves, and one can be moved, or is a
   // sensor.
   bool may_meet(int a, int b) const {
-    if (bodies[a].sensor || bodies[b].sensor) return !(stays(a) && stays(b));
-    return !(stays(a) && stays(b)) && (yields(a) || yields(b)) && !planned_apart(a, b);
+    if (bodies[a].sensor || bodies[b].sensor) return !(is_stationary(a) && is_stationary(b));
+    return !(is_stationary(a) && is_stationary(b)) && (is_dynamic(a) || is_dynamic(b)) &&
+           !planned_apart(a, b);
   }
   bool convex(int body) const { return shapes[bodies[body].shape].convex(); }
-  // Whether it moves, whatever lies on it.
-  bool carries(int body) const { return !yields(body) && !stays(body); }
+  // Whether it moves, and no impulse can change that.
+  bool is_moving_kinematic(int body) const { return !is_dynamic(body) && !is_stationary(body); }
   // Whether an impulse can move the body.
-  bool yields(int body) const { return !bodies[body].state.is_static(); }
+  bool is_dynamic(int body) const { return !bodies[body].state.is_static(); }
   // The acceleration that gravity gives a body, where there is gravity: nothing along what is fixed.
   Vec3 gravity_on(const RigidBody& state) const { return effects.gravity->cwiseProduct(state.free_moves); }
   // What the effects make of a body's motion from the time on at which its state stands: forces alone, or

@@ -169,7 +169,8 @@ ClearDraft::ClearDraft(const World& world_, Contacts& contacts_, const Island& i
     return std::any_of(members.begin(), members.end(), [&](const Member& m) { return m.number == body; });
   };
   for (int body = 0; body < std::ssize(world.bodies); ++body)
-    if (!world.yields(body) && !is_member(body)) members.push_back({body, world.state_at(body, now), false});
+    if (!world.is_dynamic(body) && !is_member(body))
+      members.push_back({body, world.state_at(body, now), false});
   mean = states_of(members);
   for (int i = 0; i < std::ssize(members); ++i) {
     if (members[i].dynamic && world.effects.gravity)
@@ -286,7 +287,7 @@ std::vector<int> ClearResting::begin(World& world, double dt, world::StepReport&
   plans_.clear();
   std::vector<int> bodies;
   for (int body = 0; body < std::ssize(world.bodies); ++body)
-    if (world.yields(body)) bodies.push_back(body);
+    if (world.is_dynamic(body)) bodies.push_back(body);
   return go_on(world, bodies, 0);
 }
 
@@ -311,7 +312,7 @@ std::vector<int> ClearResting::meet(World& world, int a, int b, double now, worl
   listeners_ = &listeners;
   std::vector<int> bodies;
   for (const int body : {a, b})
-    if (world.yields(body)) bodies.push_back(body);
+    if (world.is_dynamic(body)) bodies.push_back(body);
   return go_on(world, bodies, now);
 }
 

@@ -64,7 +64,7 @@ bool Courses::keeps(const world::World& world, std::span<const Member> all) {
   for (std::size_t i = 0; i < first_; ++i)
     if (members[i].number != all[i].number) return false;
   for (int body = 0; body < static_cast<int>(world.bodies.size()); ++body)
-    if (world.carries(body)) return false;
+    if (world.is_moving_kinematic(body)) return false;
   return true;
 }
 
@@ -199,7 +199,7 @@ void Courses::find(const world::World& world, bool far) {
     for (const int j : others_) add_pair(world, i, j, far);
     others_.clear();
     world.schedule.overlapping(boxes_[at(i)], [&](int other) {
-      if (!world.yields(other) && !world::is_sensor_pair(world, members[at(i)].number, other))
+      if (!world.is_dynamic(other) && !world::is_sensor_pair(world, members[at(i)].number, other))
         others_.push_back(other);
     });
     std::sort(others_.begin(), others_.end());

@@ -309,7 +309,8 @@ Planned CrowdPlanner::take(const world::World& world) {
     const double z = sweeps_.impulse(i);
     if (!(z > 0)) continue;
     ++result.pushing;
-    const bool driven = world.carries(pair.contacts->a) || world.carries(pair.contacts->b);
+    const bool driven =
+        world.is_moving_kinematic(pair.contacts->a) || world.is_moving_kinematic(pair.contacts->b);
     if (!driven && !options_.told) continue;
     PlannedRow told;
     told.contact = contact_of(world, row);

@@ -36,9 +36,9 @@ std::vector<Clash> DrivenWatch::look(const world::World& world, Contacts& contac
   std::vector<Clash> clashes;
   const int count = static_cast<int>(world.bodies.size());
   for (int a = 0; a < count; ++a) {
-    if (!world.carries(a)) continue;
+    if (!world.is_moving_kinematic(a)) continue;
     for (int b = 0; b < count; ++b) {
-      if (b == a || world.yields(b) || (world.carries(b) && b < a)) continue;
+      if (b == a || world.is_dynamic(b) || (world.is_moving_kinematic(b) && b < a)) continue;
       if (world::is_sensor_pair(world, a, b) || told_.contains({a, b})) continue;
       const std::optional<double> time = clash(world, contacts, a, b, dt);
       if (!time) continue;

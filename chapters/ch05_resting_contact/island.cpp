@@ -17,7 +17,7 @@ void IslandFinder::begin(double now) {
 
 int IslandFinder::place_of(const world::World& world, Island& island, int body) {
   int& place = place_[at(body)];
-  const bool dynamic = world.yields(body);
+  const bool dynamic = world.is_dynamic(body);
   const bool known = dynamic ? stamp_[at(body)] == island_ : place >= 0;
   if (known) return place;
   place = static_cast<int>(island.members.size());
@@ -46,7 +46,7 @@ Island IslandFinder::grow(const world::World& world, int body, const std::vector
       // Of two that can be moved, whoever was looked at first has looked at both.
       const auto k = at(other);
       const bool done = stamp_[k] == island_ && place_[k] < static_cast<int>(next) && crowd_of[k] < 0;
-      if (!world.yields(other) || !done) others_.push_back(other);
+      if (!world.is_dynamic(other) || !done) others_.push_back(other);
     });
     std::sort(others_.begin(), others_.end());
     for (const int other : others_) {
@@ -77,7 +77,8 @@ std::vector<std::vector<int>> find_crowds(const world::World& world, Contacts& c
     return body;
   };
   world.schedule.overlapping_pairs([&](int a, int b) {
-    if (!world.yields(a) || !world.yields(b) || world.bodies[at(a)].sensor || world.bodies[at(b)].sensor)
+    if (!world.is_dynamic(a) || !world.is_dynamic(b) || world.bodies[at(a)].sensor ||
+        world.bodies[at(b)].sensor)
       return;
     PairContacts& pair = contacts.pair(a, b);
     const RigidBody &first = world.bodies[at(pair.a)].state, &second = world.bodies[at(pair.b)].state;

@@ -56,7 +56,7 @@ double smallest_gap(Facing& facing, const world::World& world, double far) {
   const int count = static_cast<int>(world.bodies.size());
   for (int a = 0; a < count; ++a)
     for (int b = a + 1; b < count; ++b) {
-      if (!world.yields(a) && !world.yields(b)) continue;
+      if (!world.is_dynamic(a) && !world.is_dynamic(b)) continue;
       if (const Patch* patch = facing.find(world, a, b, far)) smallest = std::min(smallest, patch->gap);
     }
   return smallest;
@@ -71,7 +71,7 @@ void MoreauJean::find_contacts(const world::World& world) {
   const int count = static_cast<int>(bodies_.size());
   for (int a = 0; a < count; ++a)
     for (int b = a + 1; b < count; ++b) {
-      if (!world.yields(a) && !world.yields(b)) continue;
+      if (!world.is_dynamic(a) && !world.is_dynamic(b)) continue;
       const Patch* patch = facing_.find(world, a, b, 2 * fastest * dt_ + world.tolerance);
       if (patch == nullptr) continue;
       for (int i = 0; i < patch->count; ++i) {

@@ -142,7 +142,7 @@ Track straight_track(const RigidBody& start, const Vec3& velocity, const Vec3& s
 Track track_of(const world::World& world, int body, double now, double dt) {
   Track track;
   track.reach = world.shapes[world.bodies[body].shape].reach;
-  track.moves = !world.stays(body);
+  track.moves = !world.is_stationary(body);
   track.motion = world.motion(body, now);
   track.start = track.end = {track.motion.rotation, track.motion.position};
   if (!track.moves) return track;

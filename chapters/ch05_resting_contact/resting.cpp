@@ -96,7 +96,7 @@ std::vector<int> Resting::begin(world::World& world, double dt, world::StepRepor
   crowds_.begin(world.bodies.size(), find_crowds(world, contacts_, dt, options_.most_work));
   Instant instant{world, 0, report, listeners};
   for (int body = 0; body < static_cast<int>(world.bodies.size()); ++body)
-    if (world.yields(body) && !world.bodies[at(body)].asleep) instant.bodies.push_back(body);
+    if (world.is_dynamic(body) && !world.bodies[at(body)].asleep) instant.bodies.push_back(body);
   return go_on(std::move(instant));
 }
 
@@ -121,7 +121,7 @@ std::vector<int> Resting::meet(world::World& world, int a, int b, double now, wo
   Instant instant{world, now, report, listeners};
   for (const int body : {a, b}) {
     ++meetings_[at(body)];
-    if (world.yields(body)) instant.bodies.push_back(body);
+    if (world.is_dynamic(body)) instant.bodies.push_back(body);
   }
   const auto is_crowded = [&](int body) { return crowds_.of(body) != nullptr; };
   if (std::any_of(instant.bodies.begin(), instant.bodies.end(), is_crowded)) crowds_.unite(instant.bodies);

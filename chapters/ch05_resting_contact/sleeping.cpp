@@ -14,7 +14,7 @@ bool rests(world::World& world, const Island& island, double dt) {
     world::Body& body = body_of(world, member);
     if (!member.dynamic) {
       lies = true;
-      all = all && !world.carries(member.number);
+      all = all && !world.is_moving_kinematic(member.number);
       continue;
     }
     const double reach = world.shapes[at(body.shape)].reach;
@@ -41,7 +41,7 @@ void fall_asleep(world::World& world, IslandFinder& islands, double dt, world::S
   const std::vector<int> no_crowds(world.bodies.size(), -1);
   islands.begin(0);
   for (int i = 0; i < static_cast<int>(world.bodies.size()); ++i) {
-    if (!world.yields(i) || world.bodies[at(i)].asleep || islands.is_in_island(i)) continue;
+    if (!world.is_dynamic(i) || world.bodies[at(i)].asleep || islands.is_in_island(i)) continue;
     const Island island = islands.grow(world, i, no_crowds);
     if (!rests(world, island, dt)) continue;
     for (const Member& member : island.members) {

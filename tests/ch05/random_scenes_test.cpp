@@ -117,7 +117,7 @@ double deepest(const fc::world::World& world) {
   double depth = 0;
   for (int a = 0; a < static_cast<int>(world.bodies.size()); ++a)
     for (int b = a + 1; b < static_cast<int>(world.bodies.size()); ++b) {
-      if (!world.yields(a) && !world.yields(b)) continue;
+      if (!world.is_dynamic(a) && !world.is_dynamic(b)) continue;
       const fc::ca::PairPose pose(world.bodies[a].state.pose(), world.bodies[b].state.pose());
       const double far =
           world.shapes[world.bodies[a].shape].reach + world.shapes[world.bodies[b].shape].reach;
