@@ -47,7 +47,7 @@ void follow_paths(World& world, double dt) {
   for (int i = 0; i < static_cast<int>(world.bodies.size()); ++i) {
     const Body& body = world.bodies[static_cast<std::size_t>(i)];
     if (body.path && !body.held)
-      world.set_course(i, body.path->at(body.clock + body.time, kSoon * dt), body.time);
+      world.set_motion(i, body.path->at(body.clock + body.time, kSoon * dt), body.time);
   }
 }
 

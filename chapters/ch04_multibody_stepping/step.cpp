@@ -116,7 +116,7 @@ class Stepper {
     double mass = 0;
     for (const int body : stopped) {
       if (world_.bodies[body].held) lose(now - world_.bodies[body].time);
-      world_.carry(body, now, now);
+      world_.advance_to(body, now, now);
       momentum += world_.bodies[body].state.momentum();
       mass += world_.bodies[body].state.mass;
     }
@@ -257,7 +257,7 @@ void Stepper::solve(const Island& island, double now) {
   for (const int body : changed) {
     const auto place = std::find(island.bodies.begin(), island.bodies.end(), body) - island.bodies.begin();
     const bool hit = place < static_cast<std::ptrdiff_t>(island.bodies.size());
-    world_.set_course(body, hit ? local.states[static_cast<std::size_t>(place)] : world_.state_at(body, now),
+    world_.set_motion(body, hit ? local.states[static_cast<std::size_t>(place)] : world_.state_at(body, now),
                       now);
   }
   if (listeners_.impact)
@@ -343,7 +343,7 @@ StepReport step(World& world, double dt, const Listeners& listeners, Planner* pl
   for (int body = 0; body < static_cast<int>(world.bodies.size()); ++body) {
     Body& b = world.bodies[body];
     if (b.held) report.lost_time = std::max(report.lost_time, dt - b.time);
-    world.carry(body, dt, 0);
+    world.advance_to(body, dt, 0);
     b.was_held = b.held && b.group < 0;  // a group lives through the frame
     b.held = false;
     b.group = -1;

@@ -194,7 +194,7 @@ RigidBody World::state_at(int body, double time) const {
   return state;
 }
 
-void World::set_course(int body, const RigidBody& state, double time) {
+void World::set_motion(int body, const RigidBody& state, double time) {
   Body& b = bodies[body];
   b.state = state;
   b.time = time;
@@ -210,11 +210,11 @@ void World::set_course(int body, const RigidBody& state, double time) {
   b.free_rate = 1;
 }
 
-void World::carry(int body, double time, double name) {
+void World::advance_to(int body, double time, double relabel) {
   Body& b = bodies[body];
   const double elapsed = time - b.time;
   const Vec3 group_velocity = b.group >= 0 ? course(body, time).velocity : Vec3(Vec3::Zero());
-  b.clock += (b.held ? b.time : time) - name;  // who is held is late from then on
+  b.clock += (b.held ? b.time : time) - relabel;  // who is held is late from then on
   b.state = state_at(body, time);
   b.group_velocity = group_velocity;
   if (b.free && b.plan.number >= 0) {  // from here on it turns freely again
@@ -226,7 +226,7 @@ void World::carry(int body, double time, double name) {
   } else if (b.free && !b.held) {
     turn_on(effects.drag ? effects.drag->angular : 0, elapsed, b.free_start, b.free_rate);
   }
-  b.time = name;
+  b.time = relabel;
 }
 
 ca::Motion World::course(int body, double time) const {
@@ -303,7 +303,7 @@ World build_world(const Scene& scene) {
       state = body.path->at(0, 0);
     }
     world.bodies.push_back(body);
-    world.set_course(static_cast<int>(world.bodies.size()) - 1, state, 0);
+    world.set_motion(static_cast<int>(world.bodies.size()) - 1, state, 0);
   }
   world.tolerance = std::max(scene.ccd.tolerance, least_tolerance(world));
   refuse_overlaps(world, scene);

@@ -93,9 +93,9 @@ struct World {
   }
   // The body begins a new course: its state, standing at `time` (s in the frame), was set by something other
   // than its own motion.
-  void set_course(int body, const RigidBody& state, double time);
-  // The body's state, moved along its course to stand at `time`, which from then on is called `name`.
-  void carry(int body, double time, double name);
+  void set_motion(int body, const RigidBody& state, double time);
+  // The body's state, moved along its course to stand at `time`, a time that is called `relabel` from then on.
+  void advance_to(int body, double time, double relabel);
   // The motion of a body from a time in the frame on; one that stays stands still.
   ca::Motion motion(int body, double time) const;
   // The body's state moved to a time in the frame.

@@ -334,13 +334,13 @@ std::vector<int> ClearResting::go_on(World& world, std::vector<int> bodies, doub
     for (Member& member : island.members) {
       if (!member.dynamic) continue;
       end_plan_of(world, member.number, now, bodies);
-      world.carry(member.number, now, now);
+      world.advance_to(member.number, now, now);
       member.state = world.bodies[member.number].state;
       changed.push_back(member.number);
     }
     stop_what_closes(world, island, now);
     for (const Member& member : island.members)
-      if (member.dynamic) world.set_course(member.number, member.state, now);
+      if (member.dynamic) world.set_motion(member.number, member.state, now);
     if (!island.pairs.empty() && now < dt_) plan(world, island, now);
   }
   return now < dt_ ? changed : std::vector<int>{};
@@ -352,7 +352,7 @@ void ClearResting::end_plan_of(World& world, int body, double now, std::vector<i
   if (number < 0) return;
   Plan& plan = plans_[number];
   for (const int member : plan.bodies) {
-    world.carry(member, now, now);
+    world.advance_to(member, now, now);
     world.bodies[member].plan = {};
     bodies.push_back(member);
   }

@@ -41,7 +41,7 @@ double energy_of(const world::World& world, const RigidBody& state) {  // J
 
 // It stands still until the frame's end.
 void stop(world::World& world, int kinematic, double now, double dt, world::StepReport& report) {
-  world.carry(kinematic, now, now);
+  world.advance_to(kinematic, now, now);
   world.bodies[static_cast<std::size_t>(kinematic)].held = true;
   report.lost_time = std::max(report.lost_time, dt - now);
 }
@@ -168,7 +168,7 @@ double Resting::stand(Instant& instant, std::span<Member> members) {
     if (!member.dynamic) continue;
     world::Body& body = instant.world.bodies[at(member.number)];
     if (body.plan.number >= 0) end_plan(instant, body.plan.number);
-    instant.world.carry(member.number, instant.now, instant.now);
+    instant.world.advance_to(member.number, instant.now, instant.now);
     member.state = body.state;
     instant.changed.push_back(member.number);
     energy += energy_[at(member.number)];
@@ -180,7 +180,7 @@ void Resting::set_courses(Instant& instant, std::span<const Member> members, dou
   double gained = work - instant.report.kinematic_work - before;
   for (const Member& member : members) {
     if (!member.dynamic) continue;
-    instant.world.set_course(member.number, member.state, instant.now);
+    instant.world.set_motion(member.number, member.state, instant.now);
     energy_[at(member.number)] = energy_of(instant.world, member.state);
     gained += energy_[at(member.number)];
   }
@@ -207,7 +207,7 @@ void Resting::end_plan(Instant& instant, int number) {
   for (std::size_t i = 0; i < plan.what.bodies.size(); ++i) {
     const int member = plan.what.bodies[i];
     world::Body& body = instant.world.bodies[at(member)];
-    instant.world.carry(member, instant.now, instant.now);
+    instant.world.advance_to(member, instant.now, instant.now);
     body.plan = {};
     if (whole) {
       body.state.velocity += plan.what.arrivals[i].linear;
@@ -268,7 +268,7 @@ bool Resting::resolve(Instant& instant, Island& island) {
   }
   if (result.impact && instant.listeners.instant) {
     for (const Member& member : island.members)
-      if (member.dynamic) instant.world.set_course(member.number, member.state, instant.now);
+      if (member.dynamic) instant.world.set_motion(member.number, member.state, instant.now);
     instant.listeners.instant(instant.world, instant.now);
   }
   return true;
