@@ -59,7 +59,7 @@ struct Balls {
   bool straight;
 
   Balls(const World& world, const Pair& pair, double now) {
-    const ca::Motion a = world.course(pair.a, now), b = world.course(pair.b, now);
+    const ca::Motion a = world.centre_motion(pair.a, now), b = world.centre_motion(pair.b, now);
     apart = b.position - a.position;
     velocity = b.velocity - a.velocity;
     centre_a = a.position;

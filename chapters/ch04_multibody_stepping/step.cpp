@@ -127,7 +127,7 @@ class Stepper {
       b.group = free ? island.bodies.front() : -1;
       b.group_velocity = free ? Vec3(momentum / mass) : Vec3(Vec3::Zero());
     }
-    new_courses(stopped, now);
+    new_motions(stopped, now);
   }
 
   // Looks at a pair with a sensor, and tells what is new: contacts are told, not resolved. Whether they
@@ -142,7 +142,7 @@ class Stepper {
   }
 
   // These bodies move in another way from now on: whatever was known of their pairs is void.
-  void new_courses(const std::vector<int>& bodies, double now) {
+  void new_motions(const std::vector<int>& bodies, double now) {
     std::vector<Bounds> boxes;
     for (const int body : bodies) {
       boxes.push_back(world_.swept_bounds(body, now, dt_));
@@ -186,7 +186,7 @@ class Stepper {
 
   void open(int a, int b, double now) {
     ++report_.pairs;
-    if (is_sensor_pair(world_, a, b) && sight(a, b, now)) return;  // until one of them takes a new course
+    if (is_sensor_pair(world_, a, b) && sight(a, b, now)) return;  // until one of them begins a new motion
     ask(schedule_.open(a, b), now);
   }
 
@@ -208,7 +208,7 @@ class Stepper {
   StepReport& report_;
   const Listeners& listeners_;
   std::vector<int> others_;
-  std::vector<char> done_;       // of each body, in new_courses()
+  std::vector<char> done_;       // of each body, in new_motions()
   std::vector<PairGap> solved_;  // the pairs that touched at the last instant, and its time
   double solved_at_ = -1;
 };
@@ -263,12 +263,12 @@ void Stepper::solve(const Island& island, double now) {
   if (listeners_.impact)
     for (const lcp::Impulse& impulse : impact.impulses)
       listeners_.impact({now, island.contacts[impulse.contact], impulse});
-  new_courses(changed, now);
+  new_motions(changed, now);
 }
 
 StepReport step(World& world, double dt, const Listeners& listeners, Planner* planner);
 
-// A frame that is cut where bodies with a path take new courses.
+// A frame that is cut where bodies with a path begin new motions.
 StepReport step_in_parts(World& world, double dt, const Listeners& listeners, Planner* planner) {
   StepReport all;
   all.min_gap = std::numeric_limits<double>::infinity();
@@ -304,7 +304,7 @@ StepReport step(World& world, double dt, const Listeners& listeners, Planner* pl
   while (true) {
     if (planner != nullptr && planner->next_end() <= std::min(world.schedule.next_time(), dt)) {
       now = planner->next_end();
-      stepper.new_courses(planner->end_plans(world, now, report, listeners), now);
+      stepper.new_motions(planner->end_plans(world, now, report, listeners), now);
       continue;
     }
     if (!stepper.next(next, now)) break;
@@ -321,7 +321,7 @@ StepReport step(World& world, double dt, const Listeners& listeners, Planner* pl
     }
 
     if (planner != nullptr) {
-      stepper.new_courses(planner->meet(world, pair.a, pair.b, now, report, listeners), now);
+      stepper.new_motions(planner->meet(world, pair.a, pair.b, now, report, listeners), now);
       continue;
     }
 
@@ -330,7 +330,7 @@ StepReport step(World& world, double dt, const Listeners& listeners, Planner* pl
     stepper.solve(island, now);
     if (listeners.instant) listeners.instant(world, now);
 
-    // If nobody's course has changed, its event is gone, and it must be asked again.
+    // If no motion has changed, its event is gone, and it must be asked again.
     const int again = world.schedule.find(pair.a, pair.b);
     if (again < 0) continue;  // by now the two do not come near each other
     if (world.schedule.pair(again).answers == pair.answers) stepper.ask(again, now);

@@ -134,7 +134,7 @@ ca::Motion World::motion(int body, double time) const {
   ca::Motion motion(as_it_moves(b, state));
   if ((b.held && b.group < 0) || b.asleep || state.is_static() || b.plan.number >= 0) return motion;
   if (b.held) {  // as the group moves
-    motion.velocity = course(body, time).velocity;
+    motion.velocity = centre_motion(body, time).velocity;
     add_forces(b, motion);
     return motion;
   }
@@ -213,7 +213,7 @@ void World::set_motion(int body, const RigidBody& state, double time) {
 void World::advance_to(int body, double time, double relabel) {
   Body& b = bodies[body];
   const double elapsed = time - b.time;
-  const Vec3 group_velocity = b.group >= 0 ? course(body, time).velocity : Vec3(Vec3::Zero());
+  const Vec3 group_velocity = b.group >= 0 ? centre_motion(body, time).velocity : Vec3(Vec3::Zero());
   b.clock += (b.held ? b.time : time) - relabel;  // who is held is late from then on
   b.state = state_at(body, time);
   b.group_velocity = group_velocity;
@@ -229,7 +229,7 @@ void World::advance_to(int body, double time, double relabel) {
   b.time = relabel;
 }
 
-ca::Motion World::course(int body, double time) const {
+ca::Motion World::centre_motion(int body, double time) const {
   const Body& b = bodies[body];
   ca::Motion path;
   path.position = b.state.position;
@@ -245,7 +245,7 @@ ca::Motion World::course(int body, double time) const {
 
 Bounds World::swept_bounds(int body, double from, double to) const {
   if (!effects.swept) return {Vec3::Constant(-kEverywhere), Vec3::Constant(kEverywhere)};
-  const ca::Motion path = course(body, from);
+  const ca::Motion path = centre_motion(body, from);
   const double end = to - from;
   // What the body fills about its centre: a box if it does not turn, a ball if it does.
   const Body& b = bodies[body];

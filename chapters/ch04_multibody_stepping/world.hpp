@@ -19,9 +19,9 @@
 
 namespace fc::world {
 
-// A course that is not free flight, from the body's `time` on: it goes straight on and turns with constant spin, and its
+// A motion that is not free flight, from the body's `time` on: it goes straight on and turns with constant spin, and its
 // velocities meanwhile change evenly. The bodies of one plan are proved to keep apart from each other, and from all that
-// nothing moves, until they get another course.
+// nothing moves, until they get another one.
 struct Plan {
   int number = -1;                                     // -1: the body flies
   Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();  // m/s, rad/s, of the path
@@ -91,10 +91,10 @@ struct World {
   double restitution_of(int a, int b) const {
     return pair_rules.restitution(shapes, bodies[a].shape, bodies[b].shape);
   }
-  // The body begins a new course: its state, standing at `time` (s in the frame), was set by something other
+  // The body begins a new motion: its state, standing at `time` (s in the frame), was set by something other
   // than its own motion.
   void set_motion(int body, const RigidBody& state, double time);
-  // The body's state, moved along its course to stand at `time`, a time that is called `relabel` from then on.
+  // The body's state, moved on to stand at `time`, a time that is called `relabel` from then on.
   void advance_to(int body, double time, double relabel);
   // The motion of a body from a time in the frame on; one that stays stands still.
   ca::Motion motion(int body, double time) const;
@@ -139,7 +139,7 @@ struct World {
   void add_forces(const Body& body, ca::Motion& motion) const;
   void add_effects(int body, ca::Motion& motion) const;
   // The centre's place and velocity at a time in the frame, and its acceleration: all that matters of a ball.
-  ca::Motion course(int body, double time) const;
+  ca::Motion centre_motion(int body, double time) const;
   // A box around everything that the body reaches between two times in the frame, and the tolerance around
   // that.
   Bounds swept_bounds(int body, double from, double to) const;
@@ -194,7 +194,7 @@ struct Listeners {
 };
 
 // What a later chapter puts in the place of an instant's impacts: bodies in contact that go on together. Times are in s,
-// within the frame. Each function returns the bodies that have got another course.
+// within the frame. Each function returns the bodies that have got another motion.
 class Planner {
  public:
   virtual ~Planner() = default;

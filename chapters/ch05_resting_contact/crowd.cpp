@@ -340,7 +340,7 @@ Planned CrowdPlanner::take(const world::World& world) {
                      courses_.drift[i].angular + courses_.last[i].angular};
     const double share = shares_[i];  // of what it has at the end, too
     result.bodies.push_back(member.number);
-    result.courses.push_back(course_of(member, {track.velocity, track.spin}, free, courses_.length()));
+    result.motions.push_back(planned_motion(member, {track.velocity, track.spin}, free, courses_.length()));
     result.arrivals.push_back(
         {share * bounced[i].velocity - free.linear, share * bounced[i].spin - free.angular});
     const double before = member.state.kinetic_energy(), slow = contacts_.margin() / courses_.length();

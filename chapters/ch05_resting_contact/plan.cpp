@@ -58,16 +58,16 @@ double wanted_gap(double gap, double margin) {
   return std::max(gap + kCorrect * (rest - gap), kLeastGap * margin);
 }
 
-// ANCHOR: course_of
-world::Plan course_of(const Member& member, const Twist& path, const Twist& end, double length) {
-  world::Plan course;
-  course.linear = path.linear;
-  course.angular = path.angular;
-  course.push = (end.linear - member.state.velocity) / length;
-  course.turn = (end.angular - member.state.spin) / length;
-  return course;
+// ANCHOR: planned_motion
+world::Plan planned_motion(const Member& member, const Twist& path, const Twist& end, double length) {
+  world::Plan motion;
+  motion.linear = path.linear;
+  motion.angular = path.angular;
+  motion.push = (end.linear - member.state.velocity) / length;
+  motion.turn = (end.angular - member.state.spin) / length;
+  return motion;
 }
-// ANCHOR_END: course_of
+// ANCHOR_END: planned_motion
 
 PlanMaker::Result PlanMaker::make(const world::World& world, const Island& island, double now, double length,
                                   const PlanOptions& options) {
@@ -365,8 +365,8 @@ Planned PlanMaker::take() {
     if (!goes[i] || !courses_.members[i].dynamic) continue;
     const Twist last = courses_.last[i];
     result.bodies.push_back(courses_.members[i].number);
-    result.courses.push_back(course_of(courses_.members[i], {path.velocity, path.spin},
-                                       {end.velocity + last.linear, end.spin + last.angular}, length));
+    result.motions.push_back(planned_motion(courses_.members[i], {path.velocity, path.spin},
+                                            {end.velocity + last.linear, end.spin + last.angular}, length));
     result.arrivals.push_back({fast.velocity - end.velocity, fast.spin - end.spin});
   }
   return result;

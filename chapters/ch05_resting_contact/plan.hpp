@@ -21,7 +21,7 @@ struct PlannedRow {
 // nothing of what acts at its end: what arrives there, and what that causes.
 struct Planned {
   std::vector<int> bodies;  // by their numbers in the world
-  std::vector<world::Plan> courses;
+  std::vector<world::Plan> motions;
   std::vector<Twist> arrivals;                // what velocities get at the plan's end
   int pushing = 0;                            // contacts with an impulse,
   std::vector<PlannedRow> rows;               // and what they do
@@ -34,8 +34,8 @@ struct PlanOptions {
   double rest_speed = 0;  // m/s: what comes in faster ends the plan when it is there
 };
 
-// A course of which velocities begin as the member's and end as `end`, without what it gets on arrival.
-world::Plan course_of(const Member& member, const Twist& path, const Twist& end, double length);
+// A motion of which velocities begin as the member's and end as `end`, without what it gets on arrival.
+world::Plan planned_motion(const Member& member, const Twist& path, const Twist& end, double length);
 
 // The gap (m) that a contact with this gap should have at a plan's end, where h is the margin: nearer to h / 2.
 double wanted_gap(double gap, double margin);

@@ -156,12 +156,12 @@ void Resting::go_on(Instant& instant, Island& island) {
   for (const IslandPair& pair : island.pairs)
     report_.smallest_gap = std::min(report_.smallest_gap, pair.contacts->gap);
   const bool solved = island.pairs.empty() || resolve(instant, island);
-  set_courses(instant, island.members, before, work);
+  set_motions(instant, island.members, before, work);
   const bool goes = instant.now >= dt_ || island.pairs.empty() || (solved && plan(instant, island));
   if (!goes) join_crowd(island, true);
 }
 
-// All stand where they are now; the plans that moved them end. Returns the energy (J) with which they began their courses.
+// All stand where they are now; the plans that moved them end. Returns the energy (J) with which they began their motions.
 double Resting::stand(Instant& instant, std::span<Member> members) {
   double energy = 0;
   for (Member& member : members) {
@@ -176,7 +176,7 @@ double Resting::stand(Instant& instant, std::span<Member> members) {
   return energy;
 }
 
-void Resting::set_courses(Instant& instant, std::span<const Member> members, double before, double work) {
+void Resting::set_motions(Instant& instant, std::span<const Member> members, double before, double work) {
   double gained = work - instant.report.kinematic_work - before;
   for (const Member& member : members) {
     if (!member.dynamic) continue;
@@ -312,7 +312,7 @@ void Resting::go_on(Instant& instant, CrowdList::Crowd& crowd) {
   for (const int body : crowd.bodies) members.push_back({body, {}, true});
   const double work = instant.report.kinematic_work, before = stand(instant, members);
   wake(instant.world, members, instant.report);
-  set_courses(instant, members, before, work);
+  set_motions(instant, members, before, work);
   if (instant.now >= dt_) return;
   const double half = instant.now < (0.5 - kShortest) * dt_ ? 0.5 * dt_ : dt_, left = half - instant.now;
   CrowdOptions options;
@@ -368,7 +368,7 @@ void Resting::start(Instant& instant, Planned&& planned, double end) {
   }
   for (std::size_t i = 0; i < planned.bodies.size(); ++i) {
     world::Body& body = instant.world.bodies[at(planned.bodies[i])];
-    body.plan = planned.courses[i];
+    body.plan = planned.motions[i];
     body.plan.number = number;
     const double path = dt_ * (body.plan.linear.norm() +
                                instant.world.model_of(planned.bodies[i]).reach * body.plan.angular.norm());

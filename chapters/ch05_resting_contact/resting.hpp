@@ -69,14 +69,14 @@ class Resting : public world::Planner {
     world::StepReport& report;
     const world::Listeners& listeners;
     std::vector<int> bodies = {};   // whose plans end; the list grows
-    std::vector<int> changed = {};  // that have got another course
+    std::vector<int> changed = {};  // that have got another motion
     double gained = 0;  // J, by all of them since they got their last, beyond what kinematic bodies did
   };
   std::vector<int> go_on(Instant instant);
   void go_on(Instant& instant, Island& island);
   void go_on(Instant& instant, CrowdList::Crowd& crowd);
   double stand(Instant& instant, std::span<Member> members);
-  void set_courses(Instant& instant, std::span<const Member> members, double before, double work);
+  void set_motions(Instant& instant, std::span<const Member> members, double before, double work);
   void join_crowd(const Island& island, bool must);
   void end_plan(Instant& instant, int number);
   bool resolve(Instant& instant, Island& island);
@@ -96,7 +96,7 @@ class Resting : public world::Planner {
   CrowdList crowds_;
   std::vector<int> meetings_;       // of each body, in this frame
   std::vector<double> try_length_;  // s, of each body's next plan at most
-  std::vector<double> energy_;      // J, of each body when it got its course, in this frame
+  std::vector<double> energy_;      // J, of each body when it got its motion, in this frame
   RestReport report_;
   RestRecords records_;
 };
