@@ -30,7 +30,7 @@ class Path {
 };
 
 // Gives every body with a path its motion for the next dt seconds (of which no row is within), but for those
-// that are held: they stand, and go on from there, so much later.
+// that are frozen: they stand, and go on from there, so much later.
 void follow_paths(World& world, double dt);
 
 // For how long, of the next dt seconds, all bodies with a path keep their motions; dt if no row is within. A

@@ -102,9 +102,9 @@ class Stepper {
   // Solves everything that touches in the island, and starts the bodies anew from `now`.
   void solve(const Island& island, double now);
 
-  // Holds the island until the frame's end. One that touches nothing fixed goes on with its centre of mass; any other stays,
+  // Freezes the island until the frame's end. One that touches nothing fixed goes on with its centre of mass; any other stays,
   // with the kinematic bodies that move into it: whoever would go on would go through.
-  void hold(const Island& island, double now) {
+  void freeze(const Island& island, double now) {
     std::vector<int> stopped = island.bodies;
     const bool free = is_free(island);
     bool lies = !free;  // on nothing that moves
@@ -115,14 +115,14 @@ class Stepper {
     Vec3 momentum = Vec3::Zero();
     double mass = 0;
     for (const int body : stopped) {
-      if (world_.bodies[body].held) lose(now - world_.bodies[body].time);
+      if (world_.bodies[body].frozen) lose(now - world_.bodies[body].time);
       world_.advance_to(body, now, now);
       momentum += world_.bodies[body].state.momentum();
       mass += world_.bodies[body].state.mass;
     }
     for (const int body : stopped) {
       Body& b = world_.bodies[body];
-      b.held = true;
+      b.frozen = true;
       b.lies = lies;
       b.group = free ? island.bodies.front() : -1;
       b.group_velocity = free ? Vec3(momentum / mass) : Vec3(Vec3::Zero());
@@ -157,8 +157,8 @@ class Stepper {
   }
 
  private:
-  // Held where it is, not as one of a group that goes on.
-  static bool is_still(const Body& body) { return body.held && body.group < 0; }
+  // Frozen where it is, not as one of a group that goes on.
+  static bool is_still(const Body& body) { return body.frozen && body.group < 0; }
   void lose(double time) { report_.lost_time = std::max(report_.lost_time, time); }
 
   // Whether all that the island touches is in it, and free to move.
@@ -249,8 +249,8 @@ void Stepper::solve(const Island& island, double now) {
       const RigidBody& state = local.states[i];
       const bool same =
           is_still(body) && state.velocity == body.state.velocity && state.spin == body.state.spin;
-      if (same) continue;  // a held body that was not hit stays held
-      if (body.held) lose(now - body.time);
+      if (same) continue;  // a frozen body that was not hit stays frozen
+      if (body.frozen) lose(now - body.time);
       changed.push_back(island.bodies[i]);
     }
   if (world_.effects.sleep) wake(world_, now, changed, report_);
@@ -335,17 +335,17 @@ StepReport step(World& world, double dt, const Listeners& listeners, Planner* pl
     if (again < 0) continue;  // by now the two do not come near each other
     if (world.schedule.pair(again).answers == pair.answers) stepper.ask(again, now);
     // No gap left to spend, and still closing in: impacts would pile up without end.
-    if (pair.stalled && world.schedule.pair(again).stalled) stepper.hold(island, now);
+    if (pair.stalled && world.schedule.pair(again).stalled) stepper.freeze(island, now);
   }
   // ANCHOR_END: step
 
   if (world.effects.sleep && planner == nullptr) fall_asleep(world, dt, report);
   for (int body = 0; body < static_cast<int>(world.bodies.size()); ++body) {
     Body& b = world.bodies[body];
-    if (b.held) report.lost_time = std::max(report.lost_time, dt - b.time);
+    if (b.frozen) report.lost_time = std::max(report.lost_time, dt - b.time);
     world.advance_to(body, dt, 0);
-    b.was_held = b.held && b.group < 0;  // a group lives through the frame
-    b.held = false;
+    b.was_frozen = b.frozen && b.group < 0;  // a group lives through the frame
+    b.frozen = false;
     b.group = -1;
     b.group_velocity = Vec3::Zero();
   }

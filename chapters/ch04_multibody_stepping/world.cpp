@@ -121,7 +121,7 @@ RigidBody as_it_moves(const Body& body, RigidBody state) {
   if (body.plan.number >= 0) {
     state.velocity = body.plan.linear;
     state.spin = body.plan.angular;
-  } else if (body.held) {
+  } else if (body.frozen) {
     state.velocity = body.group_velocity;
     state.spin = Vec3::Zero();
   }
@@ -132,8 +132,8 @@ ca::Motion World::motion(int body, double time) const {
   const Body& b = bodies[body];
   const RigidBody state = state_at(body, time);
   ca::Motion motion(as_it_moves(b, state));
-  if ((b.held && b.group < 0) || b.asleep || state.is_static() || b.plan.number >= 0) return motion;
-  if (b.held) {  // as the group moves
+  if ((b.frozen && b.group < 0) || b.asleep || state.is_static() || b.plan.number >= 0) return motion;
+  if (b.frozen) {  // as the group moves
     motion.velocity = centre_motion(body, time).velocity;
     add_forces(b, motion);
     return motion;
@@ -170,8 +170,8 @@ RigidBody World::state_at(int body, double time) const {
   if (elapsed == 0 || (b.plan.number < 0 && is_stationary(body))) return state;
   ca::Motion motion(as_it_moves(b, state));
   const bool planned = b.plan.number >= 0;
-  if (is_dynamic(body) && !b.held && !b.asleep && !planned) add_effects(body, motion);
-  if (b.held && b.group >= 0) {  // forces change the velocities that it keeps, too
+  if (is_dynamic(body) && !b.frozen && !b.asleep && !planned) add_effects(body, motion);
+  if (b.frozen && b.group >= 0) {  // forces change the velocities that it keeps, too
     add_forces(b, motion);
     ca::Motion kept(state);
     add_forces(b, kept);
@@ -181,7 +181,7 @@ RigidBody World::state_at(int body, double time) const {
   if (planned) {
     state.velocity += elapsed * b.plan.push;
     state.spin += elapsed * b.plan.turn;
-  } else if (!b.held) {
+  } else if (!b.frozen) {
     state.velocity = motion.velocity_at(elapsed);
     state.spin = motion.spin_at(elapsed);
   }
@@ -198,7 +198,7 @@ void World::set_motion(int body, const RigidBody& state, double time) {
   Body& b = bodies[body];
   b.state = state;
   b.time = time;
-  b.held = b.asleep = false;
+  b.frozen = b.asleep = false;
   b.plan = {};
   b.group = -1;
   b.group_velocity = Vec3::Zero();
@@ -214,7 +214,7 @@ void World::advance_to(int body, double time, double relabel) {
   Body& b = bodies[body];
   const double elapsed = time - b.time;
   const Vec3 group_velocity = b.group >= 0 ? centre_motion(body, time).velocity : Vec3(Vec3::Zero());
-  b.clock += (b.held ? b.time : time) - relabel;  // who is held is late from then on
+  b.clock += (b.frozen ? b.time : time) - relabel;  // who is frozen is late from then on
   b.state = state_at(body, time);
   b.group_velocity = group_velocity;
   if (b.free && b.plan.number >= 0) {  // from here on it turns freely again
@@ -223,7 +223,7 @@ void World::advance_to(int body, double time, double relabel) {
     b.free = motion.free;
     b.free_start = 0;
     b.free_rate = 1;
-  } else if (b.free && !b.held) {
+  } else if (b.free && !b.frozen) {
     turn_on(effects.drag ? effects.drag->angular : 0, elapsed, b.free_start, b.free_rate);
   }
   b.time = relabel;
@@ -235,7 +235,7 @@ ca::Motion World::centre_motion(int body, double time) const {
   path.position = b.state.position;
   if (is_stationary(body)) return path;
   path.velocity = as_it_moves(b, b.state).velocity;
-  if (is_dynamic(body) && (!b.held || b.group >= 0) && !b.asleep && b.plan.number < 0) add_forces(b, path);
+  if (is_dynamic(body) && (!b.frozen || b.group >= 0) && !b.asleep && b.plan.number < 0) add_forces(b, path);
   const double elapsed = time - b.time;
   const Vec3 position = path.position_at(elapsed), velocity = path.velocity_at(elapsed);
   path.position = position;

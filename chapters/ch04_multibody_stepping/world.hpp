@@ -35,18 +35,18 @@ struct Body {
   RigidBody state;
   double time = 0;
   int shape = 0;
-  // Held until the frame's end, see step(): it keeps its velocities, but stays where it is; or, one of a group that touches
+  // Frozen until the frame's end, see step(): it keeps its velocities, but stays where it is; or, one of a group that touches
   // nothing fixed, moves with the group's centre of mass.
-  bool held = false;
+  bool frozen = false;
   int group = -1;  // the group's number: that of one of its bodies; -1: it stays where it is
   Vec3 group_velocity = Vec3::Zero();  // m/s, of the group's centre of mass, at `time`
   bool sensor = false;                 // reports contacts, resolves none
   bool asleep = false;                 // at rest until something hits it: see sleep.hpp
-  bool was_held = false;               // until the end of the last frame
-  bool lies = false;                   // held, and on nothing that moves
+  bool was_frozen = false;             // until the end of the last frame
+  bool lies = false;                   // frozen, and on nothing that moves
   Plan plan;                           // if a Planner made one
   // Of a kinematic body that follows one, and the time on it (s) at which the frame, or the part of it that is
-  // being stepped, began: the world's, less what the body was held.
+  // being stepped, began: the world's, less what the body was frozen.
   std::shared_ptr<const Path> path;
   double clock = 0;
   double still = 0;  // s, how long it has lain without a break
@@ -64,7 +64,7 @@ struct Sighting {
   double speed = 0;                                  // m/s, n.(v_body - v_sensor) there
 };
 
-// A body's state with the velocities that its points have: if it is held, its group's or none; if it is planned, its path's.
+// A body's state with the velocities that its points have: if it is frozen, its group's or none; if it is planned, its path's.
 RigidBody as_it_moves(const Body& body, RigidBody state);
 
 struct World {
@@ -103,14 +103,14 @@ struct World {
   // Whether it stays where it is until the frame's end, if nothing hits it. (It may have a velocity that it does not follow.)
   bool is_stationary(int body) const {
     const Body& b = bodies[body];
-    if ((b.held && b.group < 0) || b.asleep) return true;
+    if ((b.frozen && b.group < 0) || b.asleep) return true;
     const bool falls =
         !b.state.is_static() && effects.gravity && b.plan.number < 0 && !b.state.free_moves.isZero(0);
     const RigidBody moving = as_it_moves(b, b.state);
     return !falls && moving.velocity.isZero(0) && moving.spin.isZero(0);
   }
-  // Whether two bodies are held as parts of one group: they do not move relative to each other.
-  bool held_together(int a, int b) const {
+  // Whether two bodies are frozen as parts of one group: they do not move relative to each other.
+  bool frozen_together(int a, int b) const {
     return bodies[a].group >= 0 && bodies[a].group == bodies[b].group;
   }
   // Whether a plan has proved already that two bodies keep apart.
@@ -157,7 +157,7 @@ struct StepReport {
   double lcp_residual = 0;  // the worst
   double min_gap = 0;       // m, the smallest certified gap of the pairs that were examined; infinite if none
   double max_penetration = 0;  // m
-  double lost_time = 0;        // s, the longest that a body was held
+  double lost_time = 0;        // s, the longest that a body was frozen
   double momentum_error = 0;   // the worst change at an impact, of sum |p| and of sum (|x||p| + |I w|)
   double energy_error =
       0;  // J, the worst difference between the change at an impact and what the law predicts
@@ -217,13 +217,13 @@ class Planner {
 // again; and so on until no contact is left in the frame. Guarantee: at no time do two bodies come nearer
 // than a positive gap if they started so (those that start touching or overlapping by rounding come no nearer
 // than 64 rounding terms of it). Where impacts pile up so that a pair has less than a hundredth of the
-// tolerance left to spend, its island is held until the frame's end, and keeps its velocities: it stays where it is, or,
+// tolerance left to spend, its island is frozen until the frame's end, and keeps its velocities: it stays where it is, or,
 // if it touches nothing fixed, goes on with its centre of mass, without turning, so that only motion relative to that is
 // lost. The time that it did not live is reported as lost_time. Throws NumericalFailure if an LCP
 // cannot be solved, or a search reaches its limit without progress; std::invalid_argument for a dt that is
 // not finite and > 0, and then nothing has moved.
 StepReport step(World& world, double dt, const Listeners& listeners = {});
-// The same with a planner, which plans those bodies that do not fly, and solves all contacts; nothing is held.
+// The same with a planner, which plans those bodies that do not fly, and solves all contacts; nothing is frozen.
 StepReport step_with(Planner& planner, World& world, double dt, const Listeners& listeners = {});
 
 }  // namespace fc::world

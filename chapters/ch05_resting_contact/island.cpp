@@ -23,7 +23,7 @@ int IslandFinder::place_of(const world::World& world, Island& island, int body) 
   place = static_cast<int>(island.members.size());
   if (dynamic) stamp_[at(body)] = island_;
   RigidBody state = world.state_at(body, now_);
-  if (world.bodies[at(body)].held) state.velocity = state.spin = Vec3::Zero();
+  if (world.bodies[at(body)].frozen) state.velocity = state.spin = Vec3::Zero();
   island.members.push_back({body, state, dynamic});
   return place;
 }

@@ -42,7 +42,7 @@ double energy_of(const world::World& world, const RigidBody& state) {  // J
 // It stands still until the frame's end.
 void stop(world::World& world, int kinematic, double now, double dt, world::StepReport& report) {
   world.advance_to(kinematic, now, now);
-  world.bodies[static_cast<std::size_t>(kinematic)].held = true;
+  world.bodies[static_cast<std::size_t>(kinematic)].frozen = true;
   report.lost_time = std::max(report.lost_time, dt - now);
 }
 

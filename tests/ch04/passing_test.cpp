@@ -187,7 +187,7 @@ TEST(HeldInFreeFlight, TheCentreOfMassGoesOn) {
   EXPECT_GT(lost, 0) << "or this tests nothing";
 }
 
-// What acts on all bodies alike acts on a group that is held, too: on its way, and on the velocities that it keeps.
+// What acts on all bodies alike acts on a group that is frozen, too: on its way, and on the velocities that it keeps.
 TEST(HeldInFreeFlight, TheGroupFallsAndIsSlowedDown) {
   struct Force {
     const char *text, *name;

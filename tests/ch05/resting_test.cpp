@@ -30,7 +30,7 @@ TEST(Rest, ABoxStaysForTenMinutes) {
     s.run(595);
     EXPECT_LE((s.body(1).position - settled).norm(), 1e-9) << "m of drift in ten minutes";
     EXPECT_EQ(s.kinetic(), 0) << "J";
-    EXPECT_EQ(s.lost, 0) << "s: nothing is held any more";
+    EXPECT_EQ(s.lost, 0) << "s: nothing is frozen any more";
     EXPECT_NEAR(s.corrected, 2 * 10 * 0.00025, 1e-5) << "J: what the lift took, and it is told";
   }
 }
@@ -122,7 +122,7 @@ TEST(Zeno, ABallComesToRest) {
   }
 }
 
-// A box that lands flat without bounce lies still at once, and is not held.
+// A box that lands flat without bounce lies still at once, and is not frozen.
 TEST(Landing, WithoutBounceLosesNoTime) {
   Simulation s(head +
                    "  - {shape: box, position: [0, 0, 1.7]}\n  - {shape: box, position: [3, 0, 0.9], "
