@@ -82,12 +82,12 @@ struct World {
   double tolerance = 1e-6;                   // m; the scene's, or what rounding allows at least
   std::int64_t max_pairs = 1'000'000;        // of nodes, for one search; it then goes on from where it got to
   double part_start = 0;  // s, in the frame: from where the times of its bodies count, if it is cut in parts
-  double reserve = 0;     // m, half of which a pair has left when it is stopped; 0: the tolerance
+  double rest_gap = 0;    // m, half of which a pair has left when it is stopped; 0: the tolerance
   lcp::ImpactOptions impact = {};  // the solver of an instant's contacts
   SolverSpec solver;               // what the scene says of it
 
   const hulls::Model& model_of(int body) const { return models[bodies[body].shape]; }
-  double keep() const { return std::max(tolerance, reserve); }  // m: see find_next_contact()
+  double keep() const { return std::max(tolerance, rest_gap); }  // m: see find_next_contact()
   double restitution_of(int a, int b) const {
     return pair_rules.restitution(shapes, bodies[a].shape, bodies[b].shape);
   }

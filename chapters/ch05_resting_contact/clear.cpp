@@ -268,7 +268,7 @@ ClearResting::ClearResting(const Scene& scene, World& world, double dt)
       world.effects.gyroscopic)
     throw InputError(scene.mark("envelope").value_or(SourceMark{scene.file.string()}),
                      "the clear version knows only convex bodies and gravity; take Resting");
-  world.reserve = 0.5 * envelope();
+  world.rest_gap = 0.5 * envelope();
 }
 
 ClearReport ClearResting::step(World& world, const Listeners& listeners) {

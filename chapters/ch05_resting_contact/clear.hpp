@@ -18,7 +18,7 @@ struct ClearDraft;  // a plan in the making, see clear.cpp
 
 class ClearResting : public world::Planner {
  public:
-  // Sets the world's reserve. Throws as envelope_of(), and InputError for what it does not do: meshes, drag, sleep, sensors,
+  // Sets the world's rest gap. Throws as envelope_of(), and InputError for what it does not do: meshes, drag, sleep, sensors,
   // free rotation.
   ClearResting(const Scene& scene, world::World& world, double dt);
 

@@ -65,7 +65,7 @@ Resting::Resting(const Scene& scene, world::World& world, double dt, const RestO
     options_.solver.chosen = solver;
     options_.most_work = std::numeric_limits<double>::infinity();  // crowds are solved by sweeps of their own
   }
-  world.reserve = 0.5 * envelope();
+  world.rest_gap = 0.5 * envelope();
 }
 
 RestReport Resting::step(world::World& world, const world::Listeners& listeners) {

@@ -41,7 +41,7 @@ struct RestOptions {
 
 class Resting : public world::Planner {
  public:
-  // Sets the world's reserve. Throws as envelope_of().
+  // Sets the world's rest gap. Throws as envelope_of().
   Resting(const Scene& scene, world::World& world, double dt, const RestOptions& options = {});
 
   // One frame of dt seconds (that of the constructor).

@@ -160,7 +160,7 @@ TEST(Ex01Row, HowFarAGapIsDisplaced) {
   EXPECT_NEAR(displacement(kEnvelope, 0.24 * kWidth), 0.052 * kWidth, kRounding)
       << "m: a fifth of 0.26 h is more than the hundredth that lacks to h/4";
   EXPECT_NEAR(displacement(kEnvelope, 0.1 * kWidth), 0.15 * kWidth, kRounding)
-      << "m: what lacks to h/4, at once, for there the reserve begins";
+      << "m: what lacks to h/4, at once, for the least gap is there";
   EXPECT_NEAR(displacement({kWidth, kFrame, 1, 0}, 0), 0.5 * kWidth, kRounding)
       << "m: with a share of 1 all that lacks to h/2, at once";
 }
