@@ -259,7 +259,7 @@ void remember(const ClearDraft& draft) {
 ClearResting::ClearResting(const Scene& scene, World& world, double dt)
     : contacts_(world, envelope_of(scene, world, dt)),
       islands_(contacts_, world.bodies.size()),
-      no_crowds_(world.bodies.size(), -1),
+      no_piles_(world.bodies.size(), -1),
       frame_(dt),
       dt_(dt) {
   const bool all_convex =
@@ -330,7 +330,7 @@ std::vector<int> ClearResting::go_on(World& world, std::vector<int> bodies, doub
   std::vector<int> changed;
   for (int i = 0; i < std::ssize(bodies); ++i) {  // the list grows
     if (islands_.is_in_island(bodies[i])) continue;
-    Island island = islands_.grow(world, bodies[i], no_crowds_);
+    Island island = islands_.grow(world, bodies[i], no_piles_);
     for (Member& member : island.members) {
       if (!member.dynamic) continue;
       end_plan_of(world, member.number, now, bodies);

@@ -52,9 +52,9 @@ class ClearResting : public world::Planner {
 
   Contacts contacts_;
   IslandFinder islands_;
-  std::vector<int> no_crowds_;  // of each body: it is in none
-  double frame_, dt_;           // s, of a frame, and of the part of it at hand
-  std::vector<Plan> plans_;     // of this frame
+  std::vector<int> no_piles_;  // of each body: it is in none
+  double frame_, dt_;          // s, of a frame, and of the part of it at hand
+  std::vector<Plan> plans_;    // of this frame
   ClearReport report_;
   const world::Listeners* listeners_ = nullptr;
 };

@@ -3,11 +3,11 @@
 
 #include <limits>
 
-#include "ch05_resting_contact/crowd.hpp"
-#include "ch05_resting_contact/crowd_list.hpp"
 #include "ch05_resting_contact/driven.hpp"
 #include "ch05_resting_contact/envelope.hpp"
 #include "ch05_resting_contact/impact_law.hpp"
+#include "ch05_resting_contact/pile.hpp"
+#include "ch05_resting_contact/pile_list.hpp"
 #include "ch05_resting_contact/rest_records.hpp"
 
 namespace fc::resting {
@@ -21,20 +21,20 @@ struct RestReport {
   std::int64_t checked = 0;                                       // paths of pairs that were to be proved
   double smallest_gap = std::numeric_limits<double>::infinity();  // m, of bodies in contact, certified
   int largest_island = 0;                                         // contact points
-  int sweeps = 0;                                                 // of Gauss-Seidel, in crowds
+  int sweeps = 0;                                                 // of Gauss-Seidel, in piles
   double correction = 0;  // m, the largest that a body's point was moved to put gaps right
   double correction_energy =
       0;              // J, that bodies in contact gained beyond what kinematic bodies did: by corrections of
                       // positions, and by the plans' error, which is of second order
-  int shortened = 0;  // bodies of crowds whose paths were shortened
+  int shortened = 0;  // bodies of piles whose paths were shortened
   double lost_impulse = 0;          // N s, the momentum that this took
   std::vector<Clash> clashes = {};  // of driven bodies, first told in this frame; times in the frame
 };
 
 struct RestOptions {
-  double most_work = 2e5;   // see event_work(): more makes a crowd
+  double most_work = 2e5;   // see event_work(): more makes a pile
   int most_meetings = 256;  // and so does a body that meets others more often in one frame
-  int sweeps = 16;          // of a crowd's rows,
+  int sweeps = 16;          // of a pile's rows,
   int visits = 4000;        // and so many of single rows in any case
   IslandOptions solver = {};
 };
@@ -74,10 +74,10 @@ class Resting : public world::Planner {
   };
   std::vector<int> go_on(Instant instant);
   void go_on(Instant& instant, Island& island);
-  void go_on(Instant& instant, CrowdList::Crowd& crowd);
+  void go_on(Instant& instant, PileList::Pile& pile);
   double stand(Instant& instant, std::span<Member> members);
   void set_motions(Instant& instant, std::span<const Member> members, double before, double work);
-  void join_crowd(const Island& island, bool must);
+  void join_pile(const Island& island, bool must);
   void end_plan(Instant& instant, int number);
   bool resolve(Instant& instant, Island& island);
   bool plan(Instant& instant, Island& island);
@@ -86,14 +86,14 @@ class Resting : public world::Planner {
   Contacts contacts_;
   IslandFinder islands_;
   PlanMaker maker_;
-  CrowdPlanner crowd_planner_;
+  PilePlanner pile_planner_;
   DrivenWatch watch_;
   IslandSolver solver_;
   RestOptions options_;
   double frame_, dt_;  // s, of a frame, and of the part of it at hand
   std::vector<Running> plans_;
   std::vector<int> free_plans_;
-  CrowdList crowds_;
+  PileList piles_;
   std::vector<int> meetings_;       // of each body, in this frame
   std::vector<double> try_length_;  // s, of each body's next plan at most
   std::vector<double> energy_;      // J, of each body when it got its motion, in this frame

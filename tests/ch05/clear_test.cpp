@@ -318,7 +318,7 @@ TEST(Clear, KeepsTheLawsInRandomScenes) {
   }
 }
 
-// Crowds take it long: only as many frames as a test has time for.
+// Piles take it long: only as many frames as a test has time for.
 TEST(Clear, KeepsTheLawsInTheGallery) {
   for (const auto& [name, frames] :
        {std::pair("mixed", 42), std::pair("heap", 40), std::pair("cylinders", 8)}) {

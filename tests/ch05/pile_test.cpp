@@ -1,4 +1,4 @@
-// Crowds: rows solved by sweeps against Dantzig's method; energy; heaps in which nothing overlaps.
+// Piles: rows solved by sweeps against Dantzig's method; energy; heaps in which nothing overlaps.
 #include <gtest/gtest.h>
 
 #include <random>

@@ -1,4 +1,4 @@
-#include "ch05_resting_contact/crowd.hpp"
+#include "ch05_resting_contact/pile.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,18 +9,18 @@ namespace fc::resting {
 namespace {
 
 // A path is clear if its gap stays above this part of the margin, or half of what it was.
-constexpr double kFloor = 1.0 / 64;
+constexpr double kPathFloor = 1.0 / 64;
 
-// The largest part of their kinetic energy that a crowd's plans may add to it in a frame.
+// The largest part of their kinetic energy that a pile's plans may add to it in a frame.
 constexpr double kMostGained = 0.01;
 
 // Pairs of nodes that are looked at in one proof.
-constexpr std::int64_t kMostPairs = 50'000;
+constexpr std::int64_t kMostNodePairs = 50'000;
 
 // Of the time until two come near: so far they go. And what is less than this share is nothing.
 constexpr double kOfFree = 0.9, kLeastShare = 1e-3;
 
-// Finds shares of the paths of a crowd with which nobody is in anybody's way.
+// Finds shares of the paths of a pile with which nobody is in anybody's way.
 class Shortening {
  public:
   Shortening(const world::World& world, Courses& courses, std::vector<double>& shares,
@@ -81,7 +81,7 @@ class Shortening {
     for (;;) {
       const PathVerdict verdict =
           courses_.check(world_, pair, scaled(pair.a), scaled(pair.b),
-                         {.need = floor, .most_pairs = kMostPairs, .by_planes = true});
+                         {.need = floor, .most_pairs = kMostNodePairs, .by_planes = true});
       if (verdict.clear) return;
       const double part = kOfFree * verdict.time / courses_.length();
       const auto lower = [&](double share, double least) {
@@ -113,8 +113,8 @@ class Shortening {
 
 }  // namespace
 
-Planned CrowdPlanner::make(const world::World& world, std::span<const Member> members, double now,
-                           double length, const CrowdOptions& options) {
+Planned PilePlanner::make(const world::World& world, std::span<const Member> members, double now,
+                          double length, const PileOptions& options) {
   options_ = options;
   rows_.clear();
   late_.clear();
@@ -133,7 +133,7 @@ Planned CrowdPlanner::make(const world::World& world, std::span<const Member> me
   swept_ = sweeps_.run(std::max(options_.sweeps, options_.visits / (1 + rows())));
   find_paths(world);
   shares_.assign(courses_.members.size(), 1);
-  Shortening(world, courses_, shares_, blocked_).run(kFloor * contacts_.margin());
+  Shortening(world, courses_, shares_, blocked_).run(kPathFloor * contacts_.margin());
   for (std::size_t i = 0; i < shares_.size(); ++i) {
     if (shares_[i] == 1) continue;
     ++shortened_;
@@ -143,7 +143,7 @@ Planned CrowdPlanner::make(const world::World& world, std::span<const Member> me
   return take(world);
 }
 
-double CrowdPlanner::smallest_gap() const {
+double PilePlanner::smallest_gap() const {
   double gap = std::numeric_limits<double>::infinity();
   for (const Candidate& pair : courses_.candidates)
     if (pair.contacts->gap <= contacts_.margin()) gap = std::min(gap, pair.contacts->gap);
@@ -151,7 +151,7 @@ double CrowdPlanner::smallest_gap() const {
 }
 
 // Members that the sweeps have not heard of.
-void CrowdPlanner::add_bodies() {
+void PilePlanner::add_bodies() {
   for (std::size_t i = at(sweeps_.bodies()); i < courses_.members.size(); ++i) {
     const Twist &mean = courses_.drift[i], &more = courses_.last[i];
     sweeps_.add_body(courses_.members[i].state, {mean.linear + more.linear, mean.angular + more.angular},
@@ -159,7 +159,7 @@ void CrowdPlanner::add_bodies() {
   }
 }
 
-lcp::Contact CrowdPlanner::contact_of(const world::World& world, const Row& row) const {
+lcp::Contact PilePlanner::contact_of(const world::World& world, const Row& row) const {
   const Candidate& pair = courses_.candidates[at(row.pair)];
   const Pose &a = courses_.tracks[at(pair.a)].start, &b = courses_.tracks[at(pair.b)].start;
   const ContactPoint& point = point_of(row);
@@ -173,7 +173,7 @@ lcp::Contact CrowdPlanner::contact_of(const world::World& world, const Row& row)
           world.turns(courses_.members[at(pair.b)].number)};
 }
 
-int CrowdPlanner::add_row(const world::World& world, int candidate, int place, bool late) {
+int PilePlanner::add_row(const world::World& world, int candidate, int place, bool late) {
   first_row_.resize(courses_.candidates.size(), -1);
   Row row{candidate, place, first_row_[at(candidate)], 0, late, late};
   const lcp::Contact contact = contact_of(world, row);
@@ -190,14 +190,14 @@ int CrowdPlanner::add_row(const world::World& world, int candidate, int place, b
 }
 
 // Step 2.
-void CrowdPlanner::find_paths(const world::World& world) {
-  const double floor = kFloor * contacts_.margin();
+void PilePlanner::find_paths(const world::World& world) {
+  const double floor = kPathFloor * contacts_.margin();
   for (int round = 0;; ++round) {
     sweeps_.work_out(velocities_, paths_);
     for (std::size_t i = 0; i < paths_.size(); ++i) courses_.go(static_cast<int>(i), paths_[i]);
     courses_.find(world, true);
     add_bodies();
-    const PathOptions options{.need = floor, .most_pairs = kMostPairs, .by_planes = true, .whole = true};
+    const PathOptions options{.need = floor, .most_pairs = kMostNodePairs, .by_planes = true, .whole = true};
     const bool clear = courses_.prove(world, [&](const Candidate&) { return options; });
     if (clear || round == options_.rounds) return;
     for (int i = 0; i < static_cast<int>(courses_.candidates.size()); ++i)
@@ -207,7 +207,7 @@ void CrowdPlanner::find_paths(const world::World& world) {
 }
 
 // Rows of a pair whose paths are not clear: with the gaps at the end as they will be, and with all points that it has there.
-void CrowdPlanner::look_again(const world::World& world, int candidate) {
+void PilePlanner::look_again(const world::World& world, int candidate) {
   const Candidate pair = courses_.candidates[at(candidate)];
   const Track &a = courses_.tracks[at(pair.a)], &b = courses_.tracks[at(pair.b)];
   const double rest = 0.5 * contacts_.margin();
@@ -229,7 +229,7 @@ void CrowdPlanner::look_again(const world::World& world, int candidate) {
 }
 
 // An impulse at the end of a path needs a contact there.
-void CrowdPlanner::drop_what_acts_on_air() {
+void PilePlanner::drop_what_acts_on_air() {
   constexpr int kMostTimes = 3, kSweeps = 4;
   for (int times = 0; times < kMostTimes; ++times) {
     bool any = false;
@@ -252,7 +252,7 @@ void CrowdPlanner::drop_what_acts_on_air() {
 
 // What bounces gives back what its restitution says, with the largest factor <= 1 for all with which this takes no more energy
 // than the impulses gave (see impact_law.hpp).
-void CrowdPlanner::give_back(const world::World& world, std::vector<RigidBody>& bodies) {
+void PilePlanner::give_back(const world::World& world, std::vector<RigidBody>& bodies) {
   back_.assign(rows_.size(), 0);
   bool any = false;
   for (int i = 0; i < rows(); ++i) {
@@ -283,7 +283,7 @@ void CrowdPlanner::give_back(const world::World& world, std::vector<RigidBody>& 
 }
 
 // For the next plan's guess; and which contacts last: where something pushes, all points.
-void CrowdPlanner::remember() const {
+void PilePlanner::remember() const {
   std::vector<char> pushes(courses_.candidates.size(), 0);
   for (int i = 0; i < rows(); ++i)
     pushes[at(rows_[at(i)].pair)] |= sweeps_.impulse(i) > 0 && !rows_[at(i)].arrives;
@@ -297,7 +297,7 @@ void CrowdPlanner::remember() const {
 }
 
 // All impulses act at the end.
-Planned CrowdPlanner::take(const world::World& world) {
+Planned PilePlanner::take(const world::World& world) {
   const std::vector<RigidBody> swept = courses_.with(velocities_);
   std::vector<RigidBody> bounced = swept;
   give_back(world, bounced);
