@@ -32,19 +32,19 @@ void IslandSolver::sweep(std::span<const RigidBody> bodies, std::span<const lcp:
                          std::span<const double> allowed, std::span<const double> z, lcp::LcpResult& result) {
   constexpr int kSweeps = 1000;
   constexpr double kAccepted = 1e-3;
-  sweeps_.clear();
+  gauss_seidel_.clear();
   for (const RigidBody& body : bodies) {
     const Twist now{body.velocity, body.spin};
-    sweeps_.add_body(body, now, now);
+    gauss_seidel_.add_body(body, now, now);
   }
-  for (std::size_t i = 0; i < contacts.size(); ++i) sweeps_.add(contacts[i], allowed[i], 0, z[i], 0);
-  sweeps_.run(1);
-  sweeps_.run_velocities(kSweeps);
-  result.residual = sweeps_.residual();
+  for (std::size_t i = 0; i < contacts.size(); ++i) gauss_seidel_.add(contacts[i], allowed[i], 0, z[i], 0);
+  gauss_seidel_.run(1);
+  gauss_seidel_.run_velocities(kSweeps);
+  result.residual = gauss_seidel_.residual();
   if (!(result.residual <= kAccepted)) return;
   result.status = lcp::Status::solved;
   result.z.resize(static_cast<Eigen::Index>(contacts.size()));
-  for (int i = 0; i < sweeps_.rows(); ++i) result.z[i] = sweeps_.impulse(i);
+  for (int i = 0; i < gauss_seidel_.rows(); ++i) result.z[i] = gauss_seidel_.impulse(i);
 }
 
 IslandResult IslandSolver::solve(std::span<RigidBody> bodies, std::span<const lcp::Contact> contacts,

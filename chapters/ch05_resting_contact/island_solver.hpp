@@ -6,7 +6,7 @@
 
 #include "ch03_impulse_lcp/contact.hpp"
 #include "ch03_impulse_lcp/dantzig.hpp"
-#include "ch05_resting_contact/sweeps.hpp"
+#include "ch05_resting_contact/gauss_seidel.hpp"
 #include "common/scene.hpp"
 
 namespace fc::resting {
@@ -37,7 +37,7 @@ class IslandSolver {
   void sweep(std::span<const RigidBody> bodies, std::span<const lcp::Contact> contacts,
              std::span<const double> allowed, std::span<const double> z, lcp::LcpResult& result);
 
-  Sweeps sweeps_;
+  GaussSeidel gauss_seidel_;
   lcp::DantzigSolver dantzig_;
 };
 

@@ -122,7 +122,7 @@ Planned PilePlanner::make(const world::World& world, std::span<const Member> mem
   blocked_.clear();
   lost_ = 0;
   shortened_ = 0;
-  sweeps_.clear();
+  gauss_seidel_.clear();
   courses_.start(world, members, now, length);
   courses_.find(world, true);
   add_bodies();
@@ -130,7 +130,7 @@ Planned PilePlanner::make(const world::World& world, std::span<const Member> mem
     const int count = static_cast<int>(courses_.candidates[at(i)].contacts->points.size());
     for (int place = 0; place < count; ++place) add_row(world, i, place, false);
   }
-  swept_ = sweeps_.run(std::max(options_.sweeps, options_.visits / (1 + rows())));
+  swept_ = gauss_seidel_.run(std::max(options_.sweeps, options_.visits / (1 + rows())));
   find_paths(world);
   shares_.assign(courses_.members.size(), 1);
   Shortening(world, courses_, shares_, blocked_).run(kPathFloor * contacts_.margin());
@@ -152,10 +152,10 @@ double PilePlanner::smallest_gap() const {
 
 // Members that the sweeps have not heard of.
 void PilePlanner::add_bodies() {
-  for (std::size_t i = at(sweeps_.bodies()); i < courses_.members.size(); ++i) {
+  for (std::size_t i = at(gauss_seidel_.bodies()); i < courses_.members.size(); ++i) {
     const Twist &mean = courses_.drift[i], &more = courses_.last[i];
-    sweeps_.add_body(courses_.members[i].state, {mean.linear + more.linear, mean.angular + more.angular},
-                     mean);
+    gauss_seidel_.add_body(courses_.members[i].state,
+                           {mean.linear + more.linear, mean.angular + more.angular}, mean);
   }
 }
 
@@ -181,9 +181,9 @@ int PilePlanner::add_row(const world::World& world, int candidate, int place, bo
   row.arrives = late || contact.gap > margin;
   const double guess = late ? 0 : point_of(row).force * length;
   const int number =
-      sweeps_.add(contact, std::max(0.0, contact.gap - 0.5 * margin) / length,
-                  (contact.gap - wanted_gap(contact.gap, margin)) / length, guess, 0.5 * guess);
-  row.before = sweeps_.start_speed(number);
+      gauss_seidel_.add(contact, std::max(0.0, contact.gap - 0.5 * margin) / length,
+                        (contact.gap - wanted_gap(contact.gap, margin)) / length, guess, 0.5 * guess);
+  row.before = gauss_seidel_.start_speed(number);
   first_row_[at(candidate)] = number;
   rows_.push_back(row);
   return number;
@@ -193,7 +193,7 @@ int PilePlanner::add_row(const world::World& world, int candidate, int place, bo
 void PilePlanner::find_paths(const world::World& world) {
   const double floor = kPathFloor * contacts_.margin();
   for (int round = 0;; ++round) {
-    sweeps_.work_out(velocities_, paths_);
+    gauss_seidel_.work_out(velocities_, paths_);
     for (std::size_t i = 0; i < paths_.size(); ++i) courses_.go(static_cast<int>(i), paths_[i]);
     courses_.find(world, true);
     add_bodies();
@@ -202,7 +202,7 @@ void PilePlanner::find_paths(const world::World& world) {
     if (clear || round == options_.rounds) return;
     for (int i = 0; i < static_cast<int>(courses_.candidates.size()); ++i)
       if (!courses_.candidates[at(i)].clear) look_again(world, i);
-    swept_ += sweeps_.run(std::max(options_.path_sweeps, options_.visits / (1 + rows())));
+    swept_ += gauss_seidel_.run(std::max(options_.path_sweeps, options_.visits / (1 + rows())));
   }
 }
 
@@ -213,7 +213,7 @@ void PilePlanner::look_again(const world::World& world, int candidate) {
   const double rest = 0.5 * contacts_.margin();
   const auto correct = [&](int row) {
     const double gap = point_of(rows_[at(row)]).gap_at(a.end, b.end);
-    sweeps_.set_room(row, (gap - rest) / courses_.length() - sweeps_.path_speed(row));
+    gauss_seidel_.set_room(row, (gap - rest) / courses_.length() - gauss_seidel_.path_speed(row));
   };
   first_row_.resize(courses_.candidates.size(), -1);
   for (int row = first_row_[at(candidate)]; row >= 0; row = rows_[at(row)].next) correct(row);
@@ -235,19 +235,19 @@ void PilePlanner::drop_what_acts_on_air() {
     bool any = false;
     for (int i = 0; i < rows(); ++i) {
       const Row& row = rows_[at(i)];
-      if (!row.arrives || !(sweeps_.impulse(i) > 0)) continue;
+      if (!row.arrives || !(gauss_seidel_.impulse(i) > 0)) continue;
       const Candidate& pair = courses_.candidates[at(row.pair)];
       const double gap =
           point_of(row).gap_at(courses_.tracks[at(pair.a)].end, courses_.tracks[at(pair.b)].end);
       if (gap <= contacts_.margin()) continue;
-      sweeps_.drop(i);
+      gauss_seidel_.drop(i);
       any = true;
     }
     if (!any) break;
-    if (times + 1 < kMostTimes) swept_ += sweeps_.run_velocities(kSweeps);
+    if (times + 1 < kMostTimes) swept_ += gauss_seidel_.run_velocities(kSweeps);
   }
   std::vector<Twist> paths;
-  sweeps_.work_out(velocities_, paths);
+  gauss_seidel_.work_out(velocities_, paths);
 }
 
 // What bounces gives back what its restitution says, with the largest factor <= 1 for all with which this takes no more energy
@@ -259,7 +259,7 @@ void PilePlanner::give_back(const world::World& world, std::vector<RigidBody>& b
     const Row& row = rows_[at(i)];
     const PairContacts& pair = *courses_.candidates[at(row.pair)].contacts;
     if (row.before >= -contacts_.margin() / options_.frame || point_of(row).lasts) continue;
-    back_[at(i)] = sweeps_.impulse(i) * world.restitution_of(pair.a, pair.b);
+    back_[at(i)] = gauss_seidel_.impulse(i) * world.restitution_of(pair.a, pair.b);
     any = any || back_[at(i)] > 0;
   }
   if (!any) return;
@@ -268,7 +268,7 @@ void PilePlanner::give_back(const world::World& world, std::vector<RigidBody>& b
     if (back_[at(i)] > 0) lcp::apply_impulse(bounced, contact_of(world, rows_[at(i)]), back_[at(i)]);
   double gave = 0, takes = 0;  // z'Az and r'Ar, by what the impulses do to the velocities
   for (int i = 0; i < rows(); ++i) {
-    const double z = sweeps_.impulse(i);
+    const double z = gauss_seidel_.impulse(i);
     if (!(z > 0)) continue;
     const lcp::Contact contact = contact_of(world, rows_[at(i)]);
     const double end = lcp::contact_velocity(bodies, contact);
@@ -286,12 +286,12 @@ void PilePlanner::give_back(const world::World& world, std::vector<RigidBody>& b
 void PilePlanner::remember() const {
   std::vector<char> pushes(courses_.candidates.size(), 0);
   for (int i = 0; i < rows(); ++i)
-    pushes[at(rows_[at(i)].pair)] |= sweeps_.impulse(i) > 0 && !rows_[at(i)].arrives;
+    pushes[at(rows_[at(i)].pair)] |= gauss_seidel_.impulse(i) > 0 && !rows_[at(i)].arrives;
   for (int i = 0; i < rows(); ++i) {
     const Row& row = rows_[at(i)];
     if (row.late) continue;
     ContactPoint& point = courses_.candidates[at(row.pair)].contacts->points[at(row.place)];
-    point.force = sweeps_.impulse(i) / courses_.length();
+    point.force = gauss_seidel_.impulse(i) / courses_.length();
     point.lasts = pushes[at(row.pair)] && !row.arrives;
   }
 }
@@ -306,7 +306,7 @@ Planned PilePlanner::take(const world::World& world) {
   for (int i = 0; i < rows(); ++i) {
     const Row& row = rows_[at(i)];
     const Candidate& pair = courses_.candidates[at(row.pair)];
-    const double z = sweeps_.impulse(i);
+    const double z = gauss_seidel_.impulse(i);
     if (!(z > 0)) continue;
     ++result.pushing;
     const bool driven =

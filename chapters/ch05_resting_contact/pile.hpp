@@ -1,8 +1,8 @@
 // Piles: so many bodies that meet in one frame that nobody could go from one of their events to the next.
 #pragma once
 
+#include "ch05_resting_contact/gauss_seidel.hpp"
 #include "ch05_resting_contact/plan.hpp"
-#include "ch05_resting_contact/sweeps.hpp"
 
 namespace fc::resting {
 
@@ -37,7 +37,7 @@ class PilePlanner {
   bool gains() const { return gains_; }  // whether it adds more energy than is small beside what there is
   // Kinematic bodies (by their numbers in the world) that went into what could not give way.
   const std::vector<int>& blocked() const { return blocked_; }
-  double residual() const { return sweeps_.residual(); }
+  double residual() const { return gauss_seidel_.residual(); }
   int sweeps() const { return swept_; }
   int checked() const { return courses_.checked(); }
   int rows() const { return static_cast<int>(rows_.size()); }
@@ -68,7 +68,7 @@ class PilePlanner {
 
   Contacts& contacts_;
   Courses courses_;
-  Sweeps sweeps_;
+  GaussSeidel gauss_seidel_;
   PileOptions options_;
   std::vector<Row> rows_;
   std::vector<int> first_row_;  // of each candidate, or -1

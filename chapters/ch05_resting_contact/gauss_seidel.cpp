@@ -1,4 +1,4 @@
-#include "ch05_resting_contact/sweeps.hpp"
+#include "ch05_resting_contact/gauss_seidel.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +23,7 @@ double along(const Vec3& normal, const Vec3& arm_a, const Vec3& arm_b, const Twi
 
 }  // namespace
 
-void Sweeps::clear() {
+void GaussSeidel::clear() {
   rows_.clear();
   lines_.clear();
   arms_.clear();
@@ -33,7 +33,7 @@ void Sweeps::clear() {
   states_.clear();
 }
 
-void Sweeps::add_body(const RigidBody& body, const Twist& velocity, const Twist& path) {
+void GaussSeidel::add_body(const RigidBody& body, const Twist& velocity, const Twist& path) {
   Mass mass{body.position, body.inverse_mass * body.free_moves,
             std::sqrt(body.inverse_mass) * body.free_moves, Mat3::Zero(), Mat3::Zero()};
   if (!body.is_static()) {
@@ -46,7 +46,7 @@ void Sweeps::add_body(const RigidBody& body, const Twist& velocity, const Twist&
   states_.push_back({Vec8::Zero(), Vec8::Zero()});
 }
 
-int Sweeps::add(const lcp::Contact& c, double allowed, double room, double impulse, double correction) {
+int GaussSeidel::add(const lcp::Contact& c, double allowed, double room, double impulse, double correction) {
   const Mass &a = masses_[at(c.body_a)], &b = masses_[at(c.body_b)];
   Arms arms{c.normal, Vec3::Zero(), Vec3::Zero()};
   if (c.turns_a) arms.a = (c.point - a.place).cross(c.normal);
@@ -77,7 +77,7 @@ int Sweeps::add(const lcp::Contact& c, double allowed, double room, double impul
 
 // ANCHOR: sweep
 template <bool kVelocities, bool kPaths>
-void Sweeps::sweep() {
+void GaussSeidel::sweep() {
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     Row& row = rows_[r];
     const Line& line = lines_[r];
@@ -100,7 +100,7 @@ void Sweeps::sweep() {
 }
 // ANCHOR_END: sweep
 
-void Sweeps::apply_guesses() {
+void GaussSeidel::apply_guesses() {
   for (State& state : states_) state = {Vec8::Zero(), Vec8::Zero()};
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     const Row& row = rows_[r];
@@ -114,7 +114,7 @@ void Sweeps::apply_guesses() {
 
 // Impulses change the kinetic energy by z'J v_0 + z'A z / 2 <= z'(b + w) / 2, since z'allowed >= 0. Each step of a sweep lowers
 // that, so it is <= 0 but for guesses.
-bool Sweeps::gains() const {
+bool GaussSeidel::gains() const {
   double sum = 0, size = 0;
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     const Row& row = rows_[r];
@@ -129,7 +129,7 @@ bool Sweeps::gains() const {
 }
 
 template <bool kVelocities, bool kPaths>
-int Sweeps::run(int sweeps) {
+int GaussSeidel::run(int sweeps) {
   constexpr int kMore = 4, kMostTimes = 5;
   int count = 0;
   const auto go_on = [&](int more) {
@@ -150,16 +150,16 @@ int Sweeps::run(int sweeps) {
   return count;
 }
 
-template int Sweeps::run<true, true>(int);
-template int Sweeps::run<true, false>(int);
-template int Sweeps::run<false, true>(int);
+template int GaussSeidel::run<true, true>(int);
+template int GaussSeidel::run<true, false>(int);
+template int GaussSeidel::run<false, true>(int);
 
-void Sweeps::set_room(int row, double room) {
+void GaussSeidel::set_room(int row, double room) {
   Row& r = rows_[at(row)];
   r.room = r.path_start + static_cast<float>(room) / r.root;
 }
 
-void Sweeps::drop(int row) {
+void GaussSeidel::drop(int row) {
   Row& r = rows_[at(row)];
   states_[at(r.a)].velocity -= r.impulse * lines_[at(row)].a;
   states_[at(r.b)].velocity -= r.impulse * lines_[at(row)].b;
@@ -167,19 +167,19 @@ void Sweeps::drop(int row) {
   r.allowed = kNever;
 }
 
-double Sweeps::start_speed(int row) const {
+double GaussSeidel::start_speed(int row) const {
   const Arms& arms = arms_[at(row)];
   return along(arms.normal, arms.a, arms.b, velocities_[at(of_row(row).a)], velocities_[at(of_row(row).b)]);
 }
 
-double Sweeps::path_speed(int row) const {
+double GaussSeidel::path_speed(int row) const {
   const Row& r = rows_[at(row)];
   const Line& line = lines_[at(row)];
   return static_cast<double>(
       ((line.a * states_[at(r.a)].path + line.b * states_[at(r.b)].path).sum() + r.path_start) * r.root);
 }
 
-void Sweeps::work_out(std::vector<Twist>& velocities, std::vector<Twist>& paths) const {
+void GaussSeidel::work_out(std::vector<Twist>& velocities, std::vector<Twist>& paths) const {
   std::vector<Twist>* const results[] = {&velocities, &paths};
   for (const bool is_path : {false, true}) {
     std::vector<Twist>& result = *results[is_path];
@@ -202,7 +202,7 @@ void Sweeps::work_out(std::vector<Twist>& velocities, std::vector<Twist>& paths)
   }
 }
 
-double Sweeps::residual() const {
+double GaussSeidel::residual() const {
   float worst = 0, largest = 0;
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     const Row& row = rows_[r];

@@ -14,10 +14,10 @@ namespace fc::resting {
 //   paths       u = J y + room    >= 0,  c'u = 0,  y = y_0 + M^-1 J' c    (m/s, N s)
 // One sweep looks at each row once, for both: the second hides in the time that the first waits for its numbers.
 //
-// Sweeps do not see J and M. With M^-1 = L L' (L lower triangular for the turning part) and D the diagonal of J M^-1 J', they work
+// It does not see J and M. With M^-1 = L L' (L lower triangular for the turning part) and D the diagonal of J M^-1 J', it works
 // on the lines of G = D^-1/2 J L, and on what D^1/2 z does to L^-1 v. So a line both tells how fast its contact closes in and how an
 // impulse moves its bodies, it is of length one, and fits a cache line in single precision. What is told is worked out in double.
-class Sweeps {
+class GaussSeidel {
  public:
   void clear();
   // A body as it is when the impulses act, its v_0 and y_0.
