@@ -142,7 +142,7 @@ struct ClearDraft {
   double now, length;  // s
   std::vector<Member> members;
   std::vector<RigidBody> mean, fast, path, ends;  // with velocities u, w, and y; at the end of y, with w
-  std::vector<Track> tracks;                      // along y
+  std::vector<Path> paths;                        // along y
   std::vector<char> planned;                      // of each member: it is pushed, or ends in contact
   std::vector<Row> rows;
   std::vector<lcp::Contact> starts;  // of the rows, now; bodies by their places among the members
@@ -175,7 +175,7 @@ ClearDraft::ClearDraft(const World& world_, Contacts& contacts_, const Island& i
   for (int i = 0; i < std::ssize(members); ++i) {
     if (members[i].dynamic && world.effects.gravity)
       mean[i].velocity += 0.5 * length * world.gravity_on(mean[i]);
-    tracks.push_back(track_of(world, members[i].number, now, length));
+    paths.push_back(path_of(world, members[i].number, now, length));
   }
   for (const IslandPair& pair : island.pairs)
     for (const ContactPoint& point : pair.contacts->points)
@@ -205,9 +205,9 @@ VecX ClearDraft::room(bool correcting) const {
 void ClearDraft::follow_paths() {
   ends = fast;
   for (int i = 0; i < std::ssize(members); ++i) {
-    Track& t = tracks[i];
+    Path& t = paths[i];
     if (members[i].dynamic)
-      t = straight_track(members[i].state, path[i].velocity, path[i].spin, t.reach, length);
+      t = straight_path(members[i].state, path[i].velocity, path[i].spin, t.reach, length);
     ends[i].position = t.end.position;
     ends[i].orientation = Quat(t.end.rotation);
   }
@@ -233,7 +233,7 @@ bool ClearDraft::has_new_rows() {
 bool ClearDraft::is_clear(int i, int j) {
   PairContacts& pair = contacts.pair(members[i].number, members[j].number);
   if (pair.a != members[i].number) std::swap(i, j);
-  const Track &a = tracks[i], &b = tracks[j];
+  const Path &a = paths[i], &b = paths[j];
   contacts.update(world, pair, a.start, b.start);
   const double rounding = ca::rounding_term(world.model_of(pair.a).whole(), world.model_of(pair.b).whole(),
                                             ca::PairPose(a.start, b.start));

@@ -12,20 +12,19 @@ namespace {
 // s, or nothing if the two keep apart.
 std::optional<double> clash(const world::World& world, Contacts& contacts, int a, int b, double dt) {
   PairContacts& pair = contacts.pair(a, b);
-  const Track track_a = track_of(world, pair.a, 0, dt), track_b = track_of(world, pair.b, 0, dt);
-  const double way = dt * ((track_b.velocity - track_a.velocity).norm() +
-                           0.5 * dt * (track_b.acceleration - track_a.acceleration).norm());
-  if ((track_b.start.position - track_a.start.position).norm() > track_a.reach + track_b.reach + way)
-    return {};
-  contacts.update(world, pair, track_a.start, track_b.start);
+  const Path path_a = path_of(world, pair.a, 0, dt), path_b = path_of(world, pair.b, 0, dt);
+  const double way = dt * ((path_b.velocity - path_a.velocity).norm() +
+                           0.5 * dt * (path_b.acceleration - path_a.acceleration).norm());
+  if ((path_b.start.position - path_a.start.position).norm() > path_a.reach + path_b.reach + way) return {};
+  contacts.update(world, pair, path_a.start, path_b.start);
   if (pair.gap > world.tolerance) {
     const PathVerdict verdict =
-        check_path(world, contacts, pair, track_a, track_b, dt, {.need = 0.5 * world.tolerance});
+        check_path(world, contacts, pair, path_a, path_b, dt, {.need = 0.5 * world.tolerance});
     if (verdict.clear) return {};
     return verdict.time;
   }
   if (!Contacts::convex(world, pair) || !pair.axis_known) return {};
-  const double end = contacts.axis_gap(world, pair, track_a.end, track_b.end);
+  const double end = contacts.axis_gap(world, pair, path_a.end, path_b.end);
   if (end > std::min(0.0, pair.gap) - world.tolerance) return {};
   return 0.0;
 }

@@ -6,7 +6,7 @@
 namespace fc::resting {
 
 // A body on its way through a frame: the poses at both ends, and what its motion is like between them.
-struct Track {
+struct Path {
   Pose start, end;
   Vec3 velocity = Vec3::Zero(), acceleration = Vec3::Zero(), spin = Vec3::Zero();  // m/s, m/s^2, rad/s
   double spin_rate = 0, reach = 0;                                                 // rad/s, m
@@ -16,9 +16,9 @@ struct Track {
 };
 
 // A body that goes straight on from a pose, with constant spin, for dt seconds.
-Track straight_track(const RigidBody& start, const Vec3& velocity, const Vec3& spin, double reach, double dt);
+Path straight_path(const RigidBody& start, const Vec3& velocity, const Vec3& spin, double reach, double dt);
 // A body of the world as it moves from `now` on (s in the frame).
-Track track_of(const world::World& world, int body, double now, double dt);
+Path path_of(const world::World& world, int body, double now, double dt);
 
 struct PathVerdict {
   bool clear = false;
@@ -43,7 +43,7 @@ struct PathOptions {
 //                     least (1 - x) s_0 + x s_1 - k dt^2 x (1 - x) / 2, where k bounds how much the way of any point is bent,
 //                     as seen by who goes with the plane; intervals are halved where that is too little;
 //   3. by conservative advancement (chapter 2).
-PathVerdict check_path(const world::World& world, const Contacts& contacts, PairContacts& pair,
-                       const Track& a, const Track& b, double dt, const PathOptions& options);
+PathVerdict check_path(const world::World& world, const Contacts& contacts, PairContacts& pair, const Path& a,
+                       const Path& b, double dt, const PathOptions& options);
 
 }  // namespace fc::resting

@@ -60,16 +60,16 @@ class Shortening {
         }
       }
     }
-    for (int i = 0; i < static_cast<int>(shares_.size()); ++i) courses_.tracks[at(i)] = scaled(i);
+    for (int i = 0; i < static_cast<int>(shares_.size()); ++i) courses_.paths[at(i)] = scaled(i);
   }
 
  private:
-  Track scaled(int member) const {
-    const Track& track = courses_.tracks[at(member)];
+  Path scaled(int member) const {
+    const Path& path = courses_.paths[at(member)];
     const double share = shares_[at(member)];
-    if (share == 1) return track;
-    return straight_track(courses_.members[at(member)].state, share * track.velocity, share * track.spin,
-                          track.reach, courses_.length());
+    if (share == 1) return path;
+    return straight_path(courses_.members[at(member)].state, share * path.velocity, share * path.spin,
+                         path.reach, courses_.length());
   }
 
   // Lowers the shares of the two until their paths are clear: the larger one first, at most to the smaller; then both alike,
@@ -98,7 +98,7 @@ class Shortening {
       if (dynamic_b) share_b = lower(share_b, 0);
       if (share_a != before_a || share_b != before_b) continue;
       for (const int member : {pair.a, pair.b})  // they stand, and are driven into
-        if (!courses_.members[at(member)].dynamic && courses_.tracks[at(member)].moves)
+        if (!courses_.members[at(member)].dynamic && courses_.paths[at(member)].moves)
           blocked_.push_back(courses_.members[at(member)].number);
       return;
     }
@@ -161,7 +161,7 @@ void PilePlanner::add_bodies() {
 
 lcp::Contact PilePlanner::contact_of(const world::World& world, const Row& row) const {
   const Candidate& pair = courses_.candidates[at(row.pair)];
-  const Pose &a = courses_.tracks[at(pair.a)].start, &b = courses_.tracks[at(pair.b)].start;
+  const Pose &a = courses_.paths[at(pair.a)].start, &b = courses_.paths[at(pair.b)].start;
   const ContactPoint& point = point_of(row);
   return {pair.a,
           pair.b,
@@ -209,7 +209,7 @@ void PilePlanner::find_paths(const world::World& world) {
 // Rows of a pair whose paths are not clear: with the gaps at the end as they will be, and with all points that it has there.
 void PilePlanner::look_again(const world::World& world, int candidate) {
   const Candidate pair = courses_.candidates[at(candidate)];
-  const Track &a = courses_.tracks[at(pair.a)], &b = courses_.tracks[at(pair.b)];
+  const Path &a = courses_.paths[at(pair.a)], &b = courses_.paths[at(pair.b)];
   const double rest = 0.5 * contacts_.margin();
   const auto correct = [&](int row) {
     const double gap = point_of(rows_[at(row)]).gap_at(a.end, b.end);
@@ -237,8 +237,7 @@ void PilePlanner::drop_what_acts_on_air() {
       const Row& row = rows_[at(i)];
       if (!row.arrives || !(gauss_seidel_.impulse(i) > 0)) continue;
       const Candidate& pair = courses_.candidates[at(row.pair)];
-      const double gap =
-          point_of(row).gap_at(courses_.tracks[at(pair.a)].end, courses_.tracks[at(pair.b)].end);
+      const double gap = point_of(row).gap_at(courses_.paths[at(pair.a)].end, courses_.paths[at(pair.b)].end);
       if (gap <= contacts_.margin()) continue;
       gauss_seidel_.drop(i);
       any = true;
@@ -323,7 +322,7 @@ Planned PilePlanner::take(const world::World& world) {
     told.key = point_of(row).key;
     told.arrives = row.arrives;
     if (row.arrives) {
-      const Track &a = courses_.tracks[at(pair.a)], &b = courses_.tracks[at(pair.b)];
+      const Path &a = courses_.paths[at(pair.a)], &b = courses_.paths[at(pair.b)];
       told.contact.gap = point_of(row).gap_at(a.end, b.end);
       told.contact.point = point_of(row).middle(a.end, b.end);
     }
@@ -335,18 +334,18 @@ Planned PilePlanner::take(const world::World& world) {
   for (std::size_t i = 0; i < swept.size(); ++i) {
     const Member& member = courses_.members[i];
     if (!member.dynamic) continue;
-    const Track& track = courses_.tracks[i];
+    const Path& path = courses_.paths[i];
     const Twist free{courses_.drift[i].linear + courses_.last[i].linear,
                      courses_.drift[i].angular + courses_.last[i].angular};
     const double share = shares_[i];  // of what it has at the end, too
     result.bodies.push_back(member.number);
-    result.motions.push_back(planned_motion(member, {track.velocity, track.spin}, free, courses_.length()));
+    result.motions.push_back(planned_motion(member, {path.velocity, path.spin}, free, courses_.length()));
     result.arrivals.push_back(
         {share * bounced[i].velocity - free.linear, share * bounced[i].spin - free.angular});
     const double before = member.state.kinetic_energy(), slow = contacts_.margin() / courses_.length();
     gained += share * share * bounced[i].kinetic_energy() - before;
     if (world.effects.gravity)
-      gained -= member.state.mass * world.effects.gravity->dot(track.end.position - track.start.position);
+      gained -= member.state.mass * world.effects.gravity->dot(path.end.position - path.start.position);
     size += before + 0.5 * member.state.mass * slow * slow;
   }
   gains_ = gained > kMostGained * size * courses_.length() / options_.frame;

@@ -188,12 +188,12 @@ bool PlanMaker::solve() {
 
 // The contact's velocity (m/s) at the end of the paths, if bodies have these velocities.
 double PlanMaker::end_speed(const Row& row, const std::vector<RigidBody>& bodies) const {
-  const Track &track_a = courses_.tracks[at(row.contact.body_a)],
-              &track_b = courses_.tracks[at(row.contact.body_b)];
+  const Path &path_a = courses_.paths[at(row.contact.body_a)],
+             &path_b = courses_.paths[at(row.contact.body_b)];
   const RigidBody &a = bodies[at(row.contact.body_a)], &b = bodies[at(row.contact.body_b)];
-  const Vec3 arm_a = row.point.on_a(track_a.end, track_b.end) - track_a.end.position,
-             arm_b = row.point.on_b(track_a.end, track_b.end) - track_b.end.position;
-  return row.point.normal_at(track_a.end, track_b.end)
+  const Vec3 arm_a = row.point.on_a(path_a.end, path_b.end) - path_a.end.position,
+             arm_b = row.point.on_b(path_a.end, path_b.end) - path_b.end.position;
+  return row.point.normal_at(path_a.end, path_b.end)
       .dot(b.velocity + b.spin.cross(arm_b) - a.velocity - a.spin.cross(arm_a));
 }
 
@@ -207,7 +207,7 @@ PlanMaker::Result PlanMaker::close_ends() {
       courses_.go(static_cast<int>(i), {path_[i].velocity, path_[i].spin});
     worst = 0;
     for (Row& row : rows_) {
-      const Track &a = courses_.tracks[at(row.contact.body_a)], &b = courses_.tracks[at(row.contact.body_b)];
+      const Path &a = courses_.paths[at(row.contact.body_a)], &b = courses_.paths[at(row.contact.body_b)];
       row.end_gap = row.point.gap_at(a.end, b.end);
       if (row.end_gap >= contacts_.margin() && !(row.impulse > 0 || row.correction > 0)) continue;
       const double bend =
@@ -240,7 +240,7 @@ bool PlanMaker::gains() const {
     if (courses_.last[i].angular.isZero(0)) continue;
     free.spin = courses_.members[i].state.spin;
     fast.spin += courses_.last[i].angular;
-    fast.orientation = Quat(courses_.tracks[i].end.rotation);
+    fast.orientation = Quat(courses_.paths[i].end.rotation);
     end_gain += fast.kinetic_energy() - free.kinetic_energy();
   }
   return std::max(gain, end_gain) > kMostBorrowed * size;
@@ -248,7 +248,7 @@ bool PlanMaker::gains() const {
 
 // When (s from the start) a point of a pair has come down to the rest gap, if its bodies go as on these paths.
 double PlanMaker::arrival(const Row& row) const {
-  const Track &a = courses_.tracks[at(row.contact.body_a)], &b = courses_.tracks[at(row.contact.body_b)];
+  const Path &a = courses_.paths[at(row.contact.body_a)], &b = courses_.paths[at(row.contact.body_b)];
   double early = 0, late = courses_.length();
   for (int i = 0; i < kHalvings; ++i) {
     const double middle = 0.5 * (early + late);
@@ -263,7 +263,7 @@ double PlanMaker::arrival(const Row& row) const {
 // there is an event instead, but for the next facets of a mesh that is in contact.
 bool PlanMaker::add_rows_of(const world::World& world, int candidate) {
   const Candidate pair = courses_.candidates[at(candidate)];
-  const Track &a = courses_.tracks[at(pair.a)], &b = courses_.tracks[at(pair.b)];
+  const Path &a = courses_.paths[at(pair.a)], &b = courses_.paths[at(pair.b)];
   const bool may_meet = !pair.in_contact || Contacts::convex(world, *pair.contacts);
   double gap = 0;
   bool any = false;
@@ -350,8 +350,8 @@ Planned PlanMaker::take() {
     told.arrives = row.arrives;
     if (row.arrives) {
       told.contact.gap = row.end_gap;
-      told.contact.point = row.point.middle(courses_.tracks[at(row.contact.body_a)].end,
-                                            courses_.tracks[at(row.contact.body_b)].end);
+      told.contact.point = row.point.middle(courses_.paths[at(row.contact.body_a)].end,
+                                            courses_.paths[at(row.contact.body_b)].end);
     }
     told.contact.body_a = courses_.members[at(row.contact.body_a)].number;
     told.contact.body_b = courses_.members[at(row.contact.body_b)].number;
@@ -360,7 +360,7 @@ Planned PlanMaker::take() {
   for (std::size_t i = 0; i < courses_.members.size(); ++i) {
     const RigidBody &path = path_[i], &fast = fast_[i], &end = ends[i];
     const double moved = length * ((path.velocity - fast.velocity).norm() +
-                                   courses_.tracks[i].reach * (path.spin - fast.spin).norm());
+                                   courses_.paths[i].reach * (path.spin - fast.spin).norm());
     result.correction = std::max(result.correction, moved);
     if (!goes[i] || !courses_.members[i].dynamic) continue;
     const Twist last = courses_.last[i];
