@@ -229,7 +229,7 @@ bool ClearDraft::has_new_rows() {
   return ++proofs <= kMostProofs && std::ssize(rows) > std::exchange(known, std::ssize(rows));
 }
 
-// Chapter 4's gap rule for a pair on its way through the plan: it keeps half of its gap, or of the rest gap.
+// Chapter 4's gap rule for a pair on its paths in the plan: it keeps half of its gap, or of the rest gap.
 bool ClearDraft::is_clear(int i, int j) {
   PairContacts& pair = contacts.pair(members[i].number, members[j].number);
   if (pair.a != members[i].number) std::swap(i, j);

@@ -90,9 +90,9 @@ void Contacts::update(const world::World& world, PairContacts& pair, const Pose&
                reach_b = world.shapes[world.bodies[pair.b].shape].reach;
   pair.axis_known = false;
   if (pair.known) {
-    const double way = reach_a < reach_b ? moved(pair.searched, seen_from(b, a), reach_a)
-                                         : moved(pair.searched, seen_from(a, b), reach_b);
-    pair.gap = pair.searched_gap - way;
+    const double distance = reach_a < reach_b ? moved(pair.searched, seen_from(b, a), reach_a)
+                                              : moved(pair.searched, seen_from(a, b), reach_b);
+    pair.gap = pair.searched_gap - distance;
     if (pair.gap > reach) {
       pair.points.clear();
       return;
@@ -101,10 +101,10 @@ void Contacts::update(const world::World& world, PairContacts& pair, const Pose&
       pair.axis_gap = axis_gap(world, pair, a, b);
       pair.axis_known = true;
     }
-    if (!pair.points.empty() && way <= again) {
+    if (!pair.points.empty() && distance <= again) {
       if (is_convex) pair.gap = std::max(pair.gap, pair.axis_gap);
       // A bound that says too little would let the path come nearer than it may.
-      if (way == 0 || pair.gap > kLeastKnown * margin_) return;
+      if (distance == 0 || pair.gap > kLeastKnown * margin_) return;
     }
     if (is_convex && pair.axis_gap > reach) {
       pair.searched = reach_a < reach_b ? seen_from(b, a) : seen_from(a, b);

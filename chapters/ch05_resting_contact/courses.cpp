@@ -130,7 +130,7 @@ world::Bounds Courses::box_of(const world::World& world, int member) const {
 }
 
 // By how much the two may come nearer each other.
-double Courses::way(const Candidate& pair) const {
+double Courses::approach(const Candidate& pair) const {
   const Path &a = paths[at(pair.a)], &b = paths[at(pair.b)];
   return length_ * ((b.velocity - a.velocity).norm() + a.spin_rate * a.reach + b.spin_rate * b.reach);
 }
@@ -155,7 +155,7 @@ void Courses::add_pair(const world::World& world, int i, int j, bool far) {
 // The pair's contacts at the start.
 void Courses::update(const world::World& world, const Candidate& pair, bool far) {
   SearchOptions options;
-  options.reach = contacts_.margin() + (far ? way(pair) : 0);
+  options.reach = contacts_.margin() + (far ? approach(pair) : 0);
   if (far) options.again = kAgain * contacts_.margin();
   contacts_.update(world, *pair.contacts, paths[at(pair.a)].start, paths[at(pair.b)].start, options);
 }
@@ -172,9 +172,9 @@ std::vector<int> Courses::widen(const world::World& world) {
     if (!none && (box.low.array() >= wide.low.array()).all() && (box.high.array() <= wide.high.array()).all())
       continue;
     const Path& path = paths[at(i)];
-    const double way = length_ * (path.velocity.norm() + path.spin_rate * path.reach);
+    const double distance = length_ * (path.velocity.norm() + path.spin_rate * path.reach);
     const Vec3 more =
-        Vec3::Constant(contacts_.margin() + kWider * way + (keep_ ? kWiderIfKept * path.reach : 0));
+        Vec3::Constant(contacts_.margin() + kWider * distance + (keep_ ? kWiderIfKept * path.reach : 0));
     wide = {box.low - more, box.high + more};
     if (!none) tree_.replace(i, wide);
     wider.push_back(i);

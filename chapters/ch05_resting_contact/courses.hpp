@@ -1,4 +1,4 @@
-// Who goes where in a plan's time, and who comes near whom on the way.
+// The paths of a plan's bodies, and which of them come near each other on these paths.
 #pragma once
 
 #include <span>
@@ -81,7 +81,7 @@ class Courses {
   std::vector<int> widen(const world::World& world);
   world::Bounds box_of(const world::World& world, int member) const;
   void add_pair(const world::World& world, int i, int j, bool far);
-  double way(const Candidate& pair) const;
+  double approach(const Candidate& pair) const;
 
   Contacts& contacts_;
   bool keep_;

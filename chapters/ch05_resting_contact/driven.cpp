@@ -13,9 +13,10 @@ namespace {
 std::optional<double> clash(const world::World& world, Contacts& contacts, int a, int b, double dt) {
   PairContacts& pair = contacts.pair(a, b);
   const Path path_a = path_of(world, pair.a, 0, dt), path_b = path_of(world, pair.b, 0, dt);
-  const double way = dt * ((path_b.velocity - path_a.velocity).norm() +
-                           0.5 * dt * (path_b.acceleration - path_a.acceleration).norm());
-  if ((path_b.start.position - path_a.start.position).norm() > path_a.reach + path_b.reach + way) return {};
+  const double distance = dt * ((path_b.velocity - path_a.velocity).norm() +
+                                0.5 * dt * (path_b.acceleration - path_a.acceleration).norm());
+  if ((path_b.start.position - path_a.start.position).norm() > path_a.reach + path_b.reach + distance)
+    return {};
   contacts.update(world, pair, path_a.start, path_b.start);
   if (pair.gap > world.tolerance) {
     const PathVerdict verdict =

@@ -83,10 +83,10 @@ std::vector<std::vector<int>> find_piles(const world::World& world, Contacts& co
     PairContacts& pair = contacts.pair(a, b);
     const RigidBody &first = world.bodies[at(pair.a)].state, &second = world.bodies[at(pair.b)].state;
     const double gap = contacts.least_gap(world, pair, first.pose(), second.pose());
-    const double way =
+    const double distance =
         dt * ((second.velocity - first.velocity).norm() + first.spin.norm() * world.model_of(pair.a).reach +
               second.spin.norm() * world.model_of(pair.b).reach);
-    if (gap - way > contacts.margin()) return;
+    if (gap - distance > contacts.margin()) return;
     const int low = std::min(root(a), root(b)), high = std::max(root(a), root(b));
     parent[at(high)] = low;
     if (high != low) {

@@ -159,10 +159,10 @@ PathVerdict check_path(const world::World& world, const Contacts& contacts, Pair
   const double need = options.need;
   const bool steady = a.steady && b.steady;
   if (steady) {
-    const double way =
+    const double distance =
         dt * ((b.velocity - a.velocity).norm() + 0.5 * dt * (b.acceleration - a.acceleration).norm() +
               a.spin_rate * a.reach + b.spin_rate * b.reach);
-    if (pair.gap - way >= need) return {true, dt, pair.gap - way - need};
+    if (pair.gap - distance >= need) return {true, dt, pair.gap - distance - need};
   }
   if (steady && pair.known && Contacts::convex(world, pair)) {
     if (!pair.axis_known) pair.axis_gap = contacts.axis_gap(world, pair, a.start, b.start);

@@ -20,7 +20,7 @@ constexpr std::int64_t kMostNodePairs = 50'000;
 // Of the time until two come near: so far they go. And what is less than this share is nothing.
 constexpr double kOfFree = 0.9, kLeastShare = 1e-3;
 
-// Finds shares of the paths of a pile with which nobody is in anybody's way.
+// Finds shares of the paths of a pile with which no body is in the way of another.
 class Shortening {
  public:
   Shortening(const world::World& world, Courses& courses, std::vector<double>& shares,

@@ -22,8 +22,8 @@ struct PileOptions {
 //      contact closes in by more than what is left of its gap) and the paths' (gaps end as wanted), all rows at once.
 //   2. All paths are proved. For pairs whose are not clear the rows are corrected to the gaps at the end as they will be, with
 //      the points that the two have there, and paths are swept again.
-//   3. Who then still is in someone's way goes only a share of its path, and keeps that share of its velocity; bodies that push
-//      each other keep one share together, since then they move as they would, but slower.
+//   3. A body that is then still in the way of another goes only a share of its path, and keeps that share of its velocity;
+//      bodies that push each other keep one share together, since then they move as they would, but slower.
 class PilePlanner {
  public:
   explicit PilePlanner(Contacts& contacts) : contacts_(contacts), courses_(contacts, true) {}
