@@ -56,7 +56,7 @@ void Courses::start(const world::World& world, std::span<const Member> all, doub
 }
 
 // Whether the pairs of the last start will do, with those of bodies that leave their boxes: for a while, of the same bodies, if
-// nothing is driven.
+// no kinematic body moves.
 bool Courses::keeps(const world::World& world, std::span<const Member> all) {
   const bool recent =
       std::exchange(frame_, contacts_.frame()) + 1 >= contacts_.frame();  // else pairs may be forgotten

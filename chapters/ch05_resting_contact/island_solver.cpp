@@ -19,7 +19,7 @@ double fastest(std::span<const RigidBody> bodies, std::span<const lcp::Contact> 
   return speed;
 }
 
-bool any_driven(std::span<const RigidBody> bodies) {
+bool has_moving_kinematic(std::span<const RigidBody> bodies) {
   return std::any_of(bodies.begin(), bodies.end(), [](const RigidBody& body) {
     return body.is_static() && !(body.velocity.isZero(0) && body.spin.isZero(0));
   });
@@ -71,7 +71,7 @@ IslandResult IslandSolver::solve(std::span<RigidBody> bodies, std::span<const lc
   const std::vector<RigidBody> before(bodies.begin(), bodies.end());
   for (Eigen::Index i = 0; i < n; ++i)
     if (result.z[i] > 0) lcp::apply_impulse(bodies, contacts[at(i)], result.z[i]);
-  if (any_driven(bodies) && fastest(bodies, contacts) > kMostLeverage * fastest(before, contacts)) {
+  if (has_moving_kinematic(bodies) && fastest(bodies, contacts) > kMostLeverage * fastest(before, contacts)) {
     std::copy(before.begin(), before.end(), bodies.begin());
     return {false, result.residual, steps, lcp::Status::limit};
   }

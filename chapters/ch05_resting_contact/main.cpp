@@ -51,7 +51,7 @@ void tell(const Scene& scene, const resting::Clash& clash, double frame) {
       stderr,
       "{}: this driven body goes into the one of {}, which does not give way either, at {:.6g} s; nothing "
       "stops it\n",
-      where(clash.driven), where(clash.other), frame + clash.time);
+      where(clash.kinematic), where(clash.other), frame + clash.time);
 }
 
 int run(const Scene& scene, const RunContext& context, Summary& summary) {

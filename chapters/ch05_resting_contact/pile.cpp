@@ -97,7 +97,7 @@ class Shortening {
       if (dynamic_a) share_a = lower(share_a, 0);
       if (dynamic_b) share_b = lower(share_b, 0);
       if (share_a != before_a || share_b != before_b) continue;
-      for (const int member : {pair.a, pair.b})  // they stand, and are driven into
+      for (const int member : {pair.a, pair.b})  // they stand, and a kinematic body goes into one
         if (!courses_.members[at(member)].dynamic && courses_.paths[at(member)].moves)
           blocked_.push_back(courses_.members[at(member)].number);
       return;
@@ -308,12 +308,12 @@ Planned PilePlanner::take(const world::World& world) {
     const double z = gauss_seidel_.impulse(i);
     if (!(z > 0)) continue;
     ++result.pushing;
-    const bool driven =
+    const bool kinematic =
         world.is_moving_kinematic(pair.contacts->a) || world.is_moving_kinematic(pair.contacts->b);
-    if (!driven && !options_.told) continue;
+    if (!kinematic && !options_.told) continue;
     PlannedRow told;
     told.contact = contact_of(world, row);
-    if (driven) result.kinematic_work += lcp::kinematic_work(swept, told.contact, z + back_[at(i)]);
+    if (kinematic) result.kinematic_work += lcp::kinematic_work(swept, told.contact, z + back_[at(i)]);
     if (!options_.told) continue;
     told.impulse = z;
     told.back = back_[at(i)];

@@ -3,9 +3,9 @@
 
 #include <limits>
 
-#include "ch05_resting_contact/driven.hpp"
 #include "ch05_resting_contact/envelope.hpp"
 #include "ch05_resting_contact/impact_law.hpp"
+#include "ch05_resting_contact/kinematic_watch.hpp"
 #include "ch05_resting_contact/pile.hpp"
 #include "ch05_resting_contact/pile_list.hpp"
 #include "ch05_resting_contact/rest_records.hpp"
@@ -28,7 +28,7 @@ struct RestReport {
                       // positions, and by the plans' error, which is of second order
   int shortened = 0;  // bodies of piles whose paths were shortened
   double lost_impulse = 0;          // N s, the momentum that this took
-  std::vector<Clash> clashes = {};  // of driven bodies, first told in this frame; times in the frame
+  std::vector<Clash> clashes = {};  // of kinematic bodies, first told in this frame; times in the frame
 };
 
 struct RestOptions {
@@ -87,7 +87,7 @@ class Resting : public world::Planner {
   IslandFinder islands_;
   PlanMaker maker_;
   PilePlanner pile_planner_;
-  DrivenWatch watch_;
+  KinematicWatch watch_;
   IslandSolver solver_;
   RestOptions options_;
   double frame_, dt_;  // s, of a frame, and of the part of it at hand

@@ -1,4 +1,4 @@
-#include "ch05_resting_contact/driven.hpp"
+#include "ch05_resting_contact/kinematic_watch.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -32,7 +32,7 @@ std::optional<double> clash(const world::World& world, Contacts& contacts, int a
 
 }  // namespace
 
-std::vector<Clash> DrivenWatch::look(const world::World& world, Contacts& contacts, double dt) {
+std::vector<Clash> KinematicWatch::look(const world::World& world, Contacts& contacts, double dt) {
   std::vector<Clash> clashes;
   const int count = static_cast<int>(world.bodies.size());
   for (int a = 0; a < count; ++a) {
