@@ -46,7 +46,8 @@ void GaussSeidel::add_body(const RigidBody& body, const Twist& velocity, const T
   states_.push_back({Vec8::Zero(), Vec8::Zero()});
 }
 
-int GaussSeidel::add(const lcp::Contact& c, double allowed, double room, double impulse, double correction) {
+int GaussSeidel::add(const lcp::Contact& c, double approach_limit, double room, double impulse,
+                     double correction) {
   const Mass &a = masses_[at(c.body_a)], &b = masses_[at(c.body_b)];
   Arms arms{c.normal, Vec3::Zero(), Vec3::Zero()};
   if (c.turns_a) arms.a = (c.point - a.place).cross(c.normal);
@@ -67,7 +68,7 @@ int GaussSeidel::add(const lcp::Contact& c, double allowed, double room, double 
   const double path_start = start(paths_);
   rows_.push_back({c.body_a, c.body_b, static_cast<float>(impulse * root),
                    static_cast<float>(correction * root),
-                   static_cast<float>((start(velocities_) + allowed) / root),
+                   static_cast<float>((start(velocities_) + approach_limit) / root),
                    static_cast<float>((path_start + room) / root), static_cast<float>(root),
                    static_cast<float>(path_start / root)});
   lines_.push_back({end(move_a, turn_a), end(move_b, turn_b)});
@@ -83,7 +84,7 @@ void GaussSeidel::sweep() {
     const Line& line = lines_[r];
     State &a = states_[at(row.a)], &b = states_[at(row.b)];
     if constexpr (kVelocities) {
-      const float w = (line.a * a.velocity + line.b * b.velocity).sum() + row.allowed;
+      const float w = (line.a * a.velocity + line.b * b.velocity).sum() + row.approach_limit;
       const float push = std::max(-row.impulse, -w);
       row.impulse += push;
       a.velocity += push * line.a;
@@ -112,17 +113,17 @@ void GaussSeidel::apply_guesses() {
   }
 }
 
-// Impulses change the kinetic energy by z'J v_0 + z'A z / 2 <= z'(b + w) / 2, since z'allowed >= 0. Each step of a sweep lowers
-// that, so it is <= 0 but for guesses.
+// Impulses change the kinetic energy by z'J v_0 + z'A z / 2 <= z'(b + w) / 2, since z'approach_limit >= 0. Each step of a sweep
+// lowers that, so it is <= 0 but for guesses.
 bool GaussSeidel::gains() const {
   double sum = 0, size = 0;
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     const Row& row = rows_[r];
     if (!(row.impulse > 0)) continue;
     const State &a = states_[at(row.a)], &b = states_[at(row.b)];
-    const float w = (lines_[r].a * a.velocity + lines_[r].b * b.velocity).sum() + row.allowed;
-    sum += static_cast<double>(row.impulse) * static_cast<double>(row.allowed + w);
-    size += static_cast<double>(row.impulse) * static_cast<double>(std::abs(row.allowed));
+    const float w = (lines_[r].a * a.velocity + lines_[r].b * b.velocity).sum() + row.approach_limit;
+    sum += static_cast<double>(row.impulse) * static_cast<double>(row.approach_limit + w);
+    size += static_cast<double>(row.impulse) * static_cast<double>(std::abs(row.approach_limit));
   }
   constexpr double kRounding = 1e-6;  // of single precision
   return sum > kRounding * size;
@@ -164,7 +165,7 @@ void GaussSeidel::drop(int row) {
   states_[at(r.a)].velocity -= r.impulse * lines_[at(row)].a;
   states_[at(r.b)].velocity -= r.impulse * lines_[at(row)].b;
   r.impulse = 0;
-  r.allowed = kNever;
+  r.approach_limit = kNever;
 }
 
 double GaussSeidel::start_speed(int row) const {
@@ -208,8 +209,8 @@ double GaussSeidel::residual() const {
     const Row& row = rows_[r];
     const float w =
         (lines_[r].a * states_[at(row.a)].velocity + lines_[r].b * states_[at(row.b)].velocity).sum() +
-        row.allowed;
-    if (row.allowed < kNever) largest = std::max(largest, std::abs(row.allowed));
+        row.approach_limit;
+    if (row.approach_limit < kNever) largest = std::max(largest, std::abs(row.approach_limit));
     worst = std::max(worst, std::abs(std::min(row.impulse, w)));
   }
   return largest > 0 ? static_cast<double>(worst / largest) : 0;

@@ -29,7 +29,8 @@ bool has_moving_kinematic(std::span<const RigidBody> bodies) {
 
 // What Dantzig's method cannot solve because of rounding (many rows that say nearly the same), sweeps can, nearly.
 void IslandSolver::sweep(std::span<const RigidBody> bodies, std::span<const lcp::Contact> contacts,
-                         std::span<const double> allowed, std::span<const double> z, lcp::LcpResult& result) {
+                         std::span<const double> approach_limits, std::span<const double> z,
+                         lcp::LcpResult& result) {
   constexpr int kSweeps = 1000;
   constexpr double kAccepted = 1e-3;
   gauss_seidel_.clear();
@@ -37,7 +38,8 @@ void IslandSolver::sweep(std::span<const RigidBody> bodies, std::span<const lcp:
     const Twist now{body.velocity, body.spin};
     gauss_seidel_.add_body(body, now, now);
   }
-  for (std::size_t i = 0; i < contacts.size(); ++i) gauss_seidel_.add(contacts[i], allowed[i], 0, z[i], 0);
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    gauss_seidel_.add(contacts[i], approach_limits[i], 0, z[i], 0);
   gauss_seidel_.run(1);
   gauss_seidel_.run_velocities(kSweeps);
   result.residual = gauss_seidel_.residual();
@@ -48,12 +50,12 @@ void IslandSolver::sweep(std::span<const RigidBody> bodies, std::span<const lcp:
 }
 
 IslandResult IslandSolver::solve(std::span<RigidBody> bodies, std::span<const lcp::Contact> contacts,
-                                 std::span<const double> allowed, std::span<double> z,
+                                 std::span<const double> approach_limits, std::span<double> z,
                                  const IslandOptions& options) {
   constexpr double kMostLeverage = 100;
   lcp::ImpactProblem problem = lcp::assemble(bodies, contacts);
   const auto n = static_cast<Eigen::Index>(contacts.size());
-  problem.b += Eigen::Map<const VecX>(allowed.data(), n);
+  problem.b += Eigen::Map<const VecX>(approach_limits.data(), n);
   const lcp::Lcp rows{problem.A, problem.b};
   const VecX guess = Eigen::Map<const VecX>(z.data(), n);
   const VecX* start = guess.maxCoeff() > 0 ? &guess : nullptr;
@@ -65,7 +67,8 @@ IslandResult IslandSolver::solve(std::span<RigidBody> bodies, std::span<const lc
   } else {
     dantzig_.solve(rows, {.start = start}, result);
   }
-  if (result.status != lcp::Status::solved && !options.chosen) sweep(bodies, contacts, allowed, z, result);
+  if (result.status != lcp::Status::solved && !options.chosen)
+    sweep(bodies, contacts, approach_limits, z, result);
   const int steps = options.chosen ? result.pivots : 0;
   if (result.status != lcp::Status::solved) return {false, result.residual, steps, result.status};
   const std::vector<RigidBody> before(bodies.begin(), bodies.end());

@@ -140,10 +140,11 @@ void PlanMaker::add_row(const world::World& world, int candidate, const ContactP
   rows_.push_back(row);
 }
 
-// From impulses_, with allowed_; bodies get the velocities.
+// From impulses_, with approach_limits_; bodies get the velocities.
 bool PlanMaker::solve(std::vector<RigidBody>& bodies) {
   if (rows_.empty()) return true;
-  const IslandResult result = solver_.solve(bodies, contact_list_, allowed_, impulses_, options_.solver);
+  const IslandResult result =
+      solver_.solve(bodies, contact_list_, approach_limits_, impulses_, options_.solver);
   residual_ = std::max(residual_, result.residual);
   ++solves_;
   if (!result.solved) {
@@ -158,11 +159,11 @@ bool PlanMaker::solve() {
   const double length = courses_.length();
   fast_ = courses_.with(courses_.drift);
   contact_list_.clear();
-  allowed_.clear();
+  approach_limits_.clear();
   impulses_.clear();
   for (const Row& row : rows_) {
     contact_list_.push_back(row.contact);
-    allowed_.push_back(row.allowed(length));
+    approach_limits_.push_back(row.approach_limit(length));
     impulses_.push_back(row.impulse);
   }
   if (!solve(fast_)) return false;
@@ -172,9 +173,10 @@ bool PlanMaker::solve() {
   bool short_of = false;
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     const Row& row = rows_[r];
-    allowed_[r] = (row.gap + row.bend - row.want) / length;
+    approach_limits_[r] = (row.gap + row.bend - row.want) / length;
     impulses_[r] = row.correction;
-    if (lcp::contact_velocity(path_, row.contact) + allowed_[r] < -kClosed * contacts_.margin() / length)
+    if (lcp::contact_velocity(path_, row.contact) + approach_limits_[r] <
+        -kClosed * contacts_.margin() / length)
       short_of = true;
   }
   if (!corrects_ || !short_of ||
@@ -309,14 +311,14 @@ std::vector<RigidBody> PlanMaker::without_arrivals(std::vector<double>& early) {
   std::vector<RigidBody> bodies = courses_.with(courses_.drift);
   std::vector<std::size_t> lasting;
   contact_list_.clear();
-  allowed_.clear();
+  approach_limits_.clear();
   impulses_.clear();
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     early[r] = 0;
     if (rows_[r].arrives) continue;
     lasting.push_back(r);
     contact_list_.push_back(rows_[r].contact);
-    allowed_.push_back(rows_[r].allowed(courses_.length()));
+    approach_limits_.push_back(rows_[r].approach_limit(courses_.length()));
     impulses_.push_back(rows_[r].impulse);
   }
   if (lasting.empty() || !solve(bodies)) return bodies;

@@ -82,7 +82,9 @@ class PlanMaker {
         infinity();  // m/s: velocities are made to part by no more, since no more is taken back at the end
     bool arrives = false;  // not in contact now: what the row does, it does at the plan's end
 
-    double allowed(double length) const { return std::max((gap + bend - keep) / length, -most_push); }  // m/s
+    double approach_limit(double length) const {  // m/s
+      return std::max((gap + bend - keep) / length, -most_push);
+    }
   };
   void add_row(const world::World& world, int candidate, const ContactPoint& point, bool arrives);
   bool solve();
@@ -102,7 +104,7 @@ class PlanMaker {
   std::vector<RigidBody> fast_, path_;  // of each member, with velocities w, and y
   std::vector<Row> rows_;
   std::vector<lcp::Contact> contact_list_;
-  std::vector<double> allowed_, impulses_;
+  std::vector<double> approach_limits_, impulses_;
   double residual_ = 0, meeting_ = 0;
   bool corrects_ = true;
   lcp::Status status_ = lcp::Status::limit;

@@ -18,7 +18,7 @@ using fc::resting::Twist;
 struct Pile {
   std::vector<fc::RigidBody> bodies;
   std::vector<fc::lcp::Contact> contacts;
-  std::vector<double> allowed;
+  std::vector<double> approach_limits;
 
   explicit Pile(unsigned seed) {
     std::mt19937 random(seed);
@@ -33,7 +33,7 @@ struct Pile {
         const int below = static_cast<int>(i) - 1;
         contacts.push_back({below, static_cast<int>(i), bodies[i].position + Vec3(uniform(), uniform(), -0.5),
                             Vec3(0.3 * uniform(), 0.3 * uniform(), 1).normalized(), 1e-4});
-        allowed.push_back(0.1 * (1 + uniform()));
+        approach_limits.push_back(0.1 * (1 + uniform()));
       }
     }
   }
@@ -44,14 +44,16 @@ struct Pile {
     for (const fc::RigidBody& body : bodies)
       result.add_body(body, {body.velocity, body.spin}, {body.velocity, body.spin});
     for (std::size_t i = 0; i < contacts.size(); ++i)
-      result.add(contacts[i], allowed[i], allowed[i] - less, guess * static_cast<double>(i % 5), 0);
+      result.add(contacts[i], approach_limits[i], approach_limits[i] - less,
+                 guess * static_cast<double>(i % 5), 0);
     return result;
   }
 
-  fc::VecX exact_speeds(double less) const {  // J v+ + allowed - less
+  fc::VecX exact_speeds(double less) const {  // J v+ + approach_limit - less
     const fc::lcp::ImpactProblem problem = fc::lcp::assemble(bodies, contacts);
     fc::VecX b = problem.b;
-    for (std::size_t i = 0; i < allowed.size(); ++i) b[static_cast<Eigen::Index>(i)] += allowed[i] - less;
+    for (std::size_t i = 0; i < approach_limits.size(); ++i)
+      b[static_cast<Eigen::Index>(i)] += approach_limits[i] - less;
     const fc::lcp::Lcp rows{problem.A, b};
     fc::lcp::DantzigSolver dantzig;
     fc::lcp::LcpResult exact;
@@ -89,9 +91,9 @@ TEST(GaussSeidel, AgreesWithDantzig) {
       const fc::VecX exact = pile.exact_speeds(is_path ? 0.05 : 0);
       const std::vector<fc::RigidBody> bodies = pile.with(is_path ? paths : velocities);
       for (std::size_t i = 0; i < pile.contacts.size(); ++i)
-        EXPECT_NEAR(
-            fc::lcp::contact_velocity(bodies, pile.contacts[i]) + pile.allowed[i] - (is_path ? 0.05 : 0),
-            exact[static_cast<Eigen::Index>(i)], 5e-3)
+        EXPECT_NEAR(fc::lcp::contact_velocity(bodies, pile.contacts[i]) + pile.approach_limits[i] -
+                        (is_path ? 0.05 : 0),
+                    exact[static_cast<Eigen::Index>(i)], 5e-3)
             << seed << " row " << i << (is_path ? " of paths" : " of velocities");
     }
   }

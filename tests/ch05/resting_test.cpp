@@ -253,10 +253,10 @@ TEST(IslandSolver, SaysWhenItGivesUp) {
   // Pressed from both sides by what does not give way: no velocity is right.
   const std::vector<fc::lcp::Contact> contacts = {{0, 1, Vec3::Zero(), Vec3::UnitZ()},
                                                   {0, 1, Vec3(0, 0, 1), -Vec3::UnitZ()}};
-  const std::vector<double> allowed = {-1, -1};
+  const std::vector<double> approach_limits = {-1, -1};
   std::vector<double> z(2, 0);
   fc::resting::IslandSolver solver;
-  EXPECT_FALSE(solver.solve(bodies, contacts, allowed, z, {}).solved);
+  EXPECT_FALSE(solver.solve(bodies, contacts, approach_limits, z, {}).solved);
   EXPECT_EQ(bodies[1].velocity, Vec3(0, 0, -1));
 }
 
