@@ -62,7 +62,7 @@ SurfacePoint surface_point(const hulls::Model& model, const Vec3& point, const V
 
 Contacts::Contacts(const world::World& world, double margin) : margin_(margin) {
   for (std::size_t s = 0; s < world.shapes.size(); ++s)
-    facets_.push_back(world.shapes[s].convex() ? build_facets(world.models[s].mesh) : Facets{});
+    face_lists_.push_back(world.shapes[s].convex() ? build_face_list(world.models[s].mesh) : FaceList{});
 }
 
 PairContacts& Contacts::pair(int a, int b) {
@@ -182,8 +182,8 @@ void Contacts::add(PairContacts& pair, const ContactPoint& point, const std::vec
 double Contacts::search_convex(const world::World& world, PairContacts& pair, const Pose& a, const Pose& b,
                                double reach) {
   const ca::PairPose pose(a, b);
-  const PatchSide side_a{world.model_of(pair.a), facets_[at(world.bodies[pair.a].shape)]},
-      side_b{world.model_of(pair.b), facets_[at(world.bodies[pair.b].shape)]};
+  const PatchSide side_a{world.model_of(pair.a), face_lists_[at(world.bodies[pair.a].shape)]},
+      side_b{world.model_of(pair.b), face_lists_[at(world.bodies[pair.b].shape)]};
   const auto slack = [&](double gap) { return std::clamp(0.25 * gap, 0.0, kSlack * margin_); };
   Patch patch;
   ca::GjkResult result;

@@ -26,7 +26,7 @@ Quat turned(const Quat& orientation, const Vec3& by) {  // rad, world axes
 }  // namespace
 
 Facing::Facing(const world::World& world) {
-  for (const hulls::Model& model : world.models) facets_.push_back(build_facets(model.mesh));
+  for (const hulls::Model& model : world.models) face_lists_.push_back(build_face_list(model.mesh));
 }
 
 const Patch* Facing::find(const world::World& world, int a, int b, double far) {
@@ -45,8 +45,8 @@ const Patch* Facing::find(const world::World& world, int a, int b, double far) {
   place->second = nearest.normal;
   nearest.lower = ca::support_gap(core_a, core_b, pose, nearest.normal);
   nearest.point_b -= push;
-  find_patch({world.model_of(a), facets_[static_cast<std::size_t>(world.bodies[a].shape)]},
-             {world.model_of(b), facets_[static_cast<std::size_t>(world.bodies[b].shape)]}, pose, nearest,
+  find_patch({world.model_of(a), face_lists_[static_cast<std::size_t>(world.bodies[a].shape)]},
+             {world.model_of(b), face_lists_[static_cast<std::size_t>(world.bodies[b].shape)]}, pose, nearest,
              kSlack, far, patch_);
   return &patch_;
 }

@@ -262,7 +262,7 @@ double PlanMaker::arrival(const Row& row) const {
 }
 
 // The points that an unproved pair has at the end of its path become rows; whether there are new ones. One that comes in fast
-// there is an event instead, but for the next facets of a mesh that is in contact.
+// there is an event instead, but for the next faces of a mesh that is in contact.
 bool PlanMaker::add_rows_of(const world::World& world, int candidate) {
   const Candidate pair = courses_.candidates[at(candidate)];
   const Path &a = courses_.paths[at(pair.a)], &b = courses_.paths[at(pair.b)];
