@@ -237,7 +237,7 @@ def unproved(_: Path) -> plt.Figure:
     to((8.9, 1.75), (10.4, 1.75), "fast, and not\nin contact", (9.64, 2.13))
     cell(7.35, 0.3, "they become rows: solve\nagain, up to four rounds", BLUE, "#E3EEF6", 3.1)
     to((7.35, 1.32), (7.35, 0.73), "yes", (7.45, 1.02), ha="left")
-    cell(2.35, 1.0, "not proved: halve the plan;\nin a crowd, shorten the paths", ORANGE, "#FFF4DC", 3.4)
+    cell(2.35, 1.0, "not proved: halve the plan;\nin a pile, shorten the paths", ORANGE, "#FFF4DC", 3.4)
     to((5.8, 1.65), (4.05, 1.2), "no", (4.9, 1.62))
     to((5.8, 0.4), (4.05, 0.8), "still not clear", (4.9, 0.28))
     axes.set(xlim=(-0.1, 13.2), ylim=(-0.2, 4.8))

@@ -25,7 +25,7 @@ struct Bounds {
   }
 };
 
-// A balanced binary tree of boxes. When a body changes its course within a frame, its box is replaced and
+// A balanced binary tree of boxes. When a body changes its motion within a frame, its box is replaced and
 // those above it grow; at the next frame all boxes are taken anew, bottom up. The tree itself, who hangs
 // beside whom, is made afresh only now and then: as bodies move on it becomes a little worse, and stays
 // right.

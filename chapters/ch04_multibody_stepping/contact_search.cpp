@@ -18,13 +18,13 @@ constexpr double kRoundingTerms = 64;  // a certified gap below so many rounding
 
 // A gap of so little of the tolerance was halved seven times by impacts one upon the other. To follow a pair
 // that slides or turns in such a gap takes steps that shrink with it, a million below 1e-12 m; an impact that
-// still comes in there is one of a pile. Consequence: what comes to rest is held from a gap of 1e-8 m on,
+// still comes in there is one of a pile. Consequence: what comes to rest is frozen from a gap of 1e-8 m on,
 // with the default tolerance.
 constexpr double kStallShare = 0.01;
 
 // A pair without a gap to spend either parts, which is proved in some tens of steps, or slides or turns in
 // contact, which no number of steps would prove. So many pairs of nodes decide, of two convex bodies and of meshes; more
-// only cost. Consequence: a pair that needs more is held for the rest of the frame.
+// only cost. Consequence: a pair that needs more is frozen for the rest of the frame.
 constexpr std::int64_t kStallPairs = 256, kStallPairsOfMeshes = 10'000;
 
 constexpr double kSharpShare = 0.25;  // of the tolerance: a gap below it is measured more sharply
@@ -59,7 +59,7 @@ struct Balls {
   bool straight;
 
   Balls(const World& world, const Pair& pair, double now) {
-    const ca::Motion a = world.course(pair.a, now), b = world.course(pair.b, now);
+    const ca::Motion a = world.centre_motion(pair.a, now), b = world.centre_motion(pair.b, now);
     apart = b.position - a.position;
     velocity = b.velocity - a.velocity;
     centre_a = a.position;
@@ -246,7 +246,7 @@ void find_next_contact(const World& world, Pair& pair, double now, double dt, st
                        StepReport& report) {
   pair.contact = pair.stalled = false;
   pair.time = dt;
-  if (!world.may_meet(pair.a, pair.b) || world.held_together(pair.a, pair.b)) return;
+  if (!world.may_meet(pair.a, pair.b) || world.frozen_together(pair.a, pair.b)) return;
   if (are_balls(world, pair) && balls_meet(world, pair, now, dt, report)) return;
   const ca::Motion motion_a = world.motion(pair.a, now), motion_b = world.motion(pair.b, now);
   if (out_of_reach(world, pair, motion_a, motion_b, dt - now, world.keep())) return;
@@ -306,14 +306,14 @@ Island touching_island(const World& world, const Pair& pair, double now, StepRep
     island.bodies.push_back(body);
     open.push_back(body);
   };
-  // A group that is held is one body to all others, also where two of it are a hair more than the tolerance apart.
+  // A group that is frozen is one body to all others, also where two of it are a hair more than the tolerance apart.
   std::vector<int> groups;  // that are in it
   const auto add_group = [&](int body) {
     const int group = world.bodies[body].group;
     if (group < 0 || std::find(groups.begin(), groups.end(), group) != groups.end()) return;
     groups.push_back(group);
     for (int other = 0; other < static_cast<int>(world.bodies.size()); ++other)
-      if (world.held_together(body, other)) add_body(other);
+      if (world.frozen_together(body, other)) add_body(other);
   };
   const auto add_contacts = [&](const Pair& other) {
     if (is_sensor_pair(world, other.a, other.b)) return;
@@ -327,10 +327,10 @@ Island touching_island(const World& world, const Pair& pair, double now, StepRep
   };
   // Two bodies that stay where they are have no pair in the schedule; if something hits one, they matter.
   const auto add_contacts_at_rest = [&](int body) {
-    if (!world.stays(body)) return;
+    if (!world.is_stationary(body)) return;
     std::vector<int> others;
     world.schedule.overlapping(world.swept_bounds(body, now, now), [&](int other) {
-      if (other != body && world.stays(other) && world.schedule.find(body, other) < 0)
+      if (other != body && world.is_stationary(other) && world.schedule.find(body, other) < 0)
         others.push_back(other);
     });
     std::sort(others.begin(), others.end());

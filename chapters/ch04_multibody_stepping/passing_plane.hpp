@@ -21,7 +21,7 @@ struct Witnesses {
   Vec3 point_a, point_b;
 };
 
-// Two models on their way, and their pose at the time (s) at which they are looked at.
+// Two models on their paths, and their pose at the time (s) at which they are looked at.
 struct NearPair {
   const hulls::Model& a;
   const ca::Motion& motion_a;

@@ -46,8 +46,8 @@ double Path::next_after(double time) const {
 void follow_paths(World& world, double dt) {
   for (int i = 0; i < static_cast<int>(world.bodies.size()); ++i) {
     const Body& body = world.bodies[static_cast<std::size_t>(i)];
-    if (body.path && !body.held)
-      world.set_course(i, body.path->at(body.clock + body.time, kSoon * dt), body.time);
+    if (body.path && !body.frozen)
+      world.set_motion(i, body.path->at(body.clock + body.time, kSoon * dt), body.time);
   }
 }
 

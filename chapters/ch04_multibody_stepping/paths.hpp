@@ -1,4 +1,4 @@
-// Kinematic bodies that go through given poses, and frames that are cut where one of them takes a new course.
+// Kinematic bodies that go through given poses, and frames that are cut where one of them begins a new motion.
 #pragma once
 
 #include <vector>
@@ -29,11 +29,11 @@ class Path {
   std::vector<PathRow> rows_;  // positions: of the centre of mass
 };
 
-// Sets every body with a path on its course for the next dt seconds (of which no row is within), but for those
-// that are held: they stand, and go on from there, so much later.
+// Gives every body with a path its motion for the next dt seconds (of which no row is within), but for those
+// that are frozen: they stand, and go on from there, so much later.
 void follow_paths(World& world, double dt);
 
-// For how long, of the next dt seconds, all bodies with a path keep their courses; dt if no row is within. A
+// For how long, of the next dt seconds, all bodies with a path keep their motions; dt if no row is within. A
 // row counts as within if it is farther from either end than a part in 10^12 of dt.
 double until_next_row(const World& world, double dt);
 

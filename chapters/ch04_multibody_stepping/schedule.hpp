@@ -16,7 +16,7 @@ struct Pair {
   double time = 0;       // s in the frame: nothing happens before
   bool contact = false;  // at `time` the pair reaches its gap (else it is clear until then)
   bool stalled = false;  // it has no gap left to spend, and closes in within the frame
-  bool open = false;     // in use; closed when one of its bodies changes its course
+  bool open = false;     // in use; closed when one of its bodies changes its motion
   int answers = 0;       // how often it was asked: an event of an older answer is void
 };
 

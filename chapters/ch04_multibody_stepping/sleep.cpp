@@ -8,7 +8,7 @@ void fall_asleep(World& world, double dt, StepReport& report) {
   const SleepSpec& sleep = *world.effects.sleep;
   for (Body& body : world.bodies) {
     if (body.asleep) continue;
-    body.still = body.held && body.lies ? body.still + (dt - body.time) : 0;
+    body.still = body.frozen && body.lies ? body.still + (dt - body.time) : 0;
     const double speed = body.state.velocity.norm() +
                          body.state.spin.norm() * world.shapes[static_cast<std::size_t>(body.shape)].reach;
     if (body.still < sleep.after || speed > sleep.speed) continue;

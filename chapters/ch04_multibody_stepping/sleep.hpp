@@ -1,4 +1,4 @@
-// Sleep: a body that was held in place for long enough is at rest, and costs nothing, until something hits
+// Sleep: a body that was frozen in place for long enough is at rest, and costs nothing, until something hits
 // it.
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace fc::world {
 
-// At a frame's end, before the bodies are carried there: counts for how long each has been held, and lets
+// At a frame's end, before the bodies are advanced there: counts for how long each has been frozen, and lets
 // those fall asleep that the scene's `sleep` lets (World::effects). A sleeping body has no velocity and no
 // spin; what energy it gave up for that is reported.
 void fall_asleep(World& world, double dt, StepReport& report);

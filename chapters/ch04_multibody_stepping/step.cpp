@@ -102,9 +102,9 @@ class Stepper {
   // Solves everything that touches in the island, and starts the bodies anew from `now`.
   void solve(const Island& island, double now);
 
-  // Holds the island until the frame's end. One that touches nothing fixed goes on with its centre of mass; any other stays,
+  // Freezes the island until the frame's end. One that touches nothing fixed goes on with its centre of mass; any other stays,
   // with the kinematic bodies that move into it: whoever would go on would go through.
-  void hold(const Island& island, double now) {
+  void freeze(const Island& island, double now) {
     std::vector<int> stopped = island.bodies;
     const bool free = is_free(island);
     bool lies = !free;  // on nothing that moves
@@ -115,19 +115,19 @@ class Stepper {
     Vec3 momentum = Vec3::Zero();
     double mass = 0;
     for (const int body : stopped) {
-      if (world_.bodies[body].held) lose(now - world_.bodies[body].time);
-      world_.carry(body, now, now);
+      if (world_.bodies[body].frozen) lose(now - world_.bodies[body].time);
+      world_.advance_to(body, now, now);
       momentum += world_.bodies[body].state.momentum();
       mass += world_.bodies[body].state.mass;
     }
     for (const int body : stopped) {
       Body& b = world_.bodies[body];
-      b.held = true;
+      b.frozen = true;
       b.lies = lies;
       b.group = free ? island.bodies.front() : -1;
       b.group_velocity = free ? Vec3(momentum / mass) : Vec3(Vec3::Zero());
     }
-    new_courses(stopped, now);
+    new_motions(stopped, now);
   }
 
   // Looks at a pair with a sensor, and tells what is new: contacts are told, not resolved. Whether they
@@ -142,7 +142,7 @@ class Stepper {
   }
 
   // These bodies move in another way from now on: whatever was known of their pairs is void.
-  void new_courses(const std::vector<int>& bodies, double now) {
+  void new_motions(const std::vector<int>& bodies, double now) {
     std::vector<Bounds> boxes;
     for (const int body : bodies) {
       boxes.push_back(world_.swept_bounds(body, now, dt_));
@@ -157,8 +157,8 @@ class Stepper {
   }
 
  private:
-  // Held where it is, not as one of a group that goes on.
-  static bool is_still(const Body& body) { return body.held && body.group < 0; }
+  // Frozen where it is, not as one of a group that goes on.
+  static bool is_still(const Body& body) { return body.frozen && body.group < 0; }
   void lose(double time) { report_.lost_time = std::max(report_.lost_time, time); }
 
   // Whether all that the island touches is in it, and free to move.
@@ -166,7 +166,8 @@ class Stepper {
     for (const lcp::Contact& contact : island.contacts)
       for (const int number : {contact.body_a, contact.body_b}) {
         const Body& body = world_.bodies[number];
-        if (!world_.yields(number) || body.state.free_moves != Vec3::Ones() || body.asleep || is_still(body))
+        if (!world_.is_dynamic(number) || body.state.free_moves != Vec3::Ones() || body.asleep ||
+            is_still(body))
           return false;
       }
     return true;
@@ -175,7 +176,7 @@ class Stepper {
   // Adds the kinematic bodies that move into a contact; `lies` becomes false if one moves there at all.
   void stop_pushers(const lcp::Contact& contact, double now, std::vector<int>& stopped, bool& lies) const {
     for (const int body : {contact.body_a, contact.body_b}) {
-      if (!world_.carries(body)) continue;
+      if (!world_.is_moving_kinematic(body)) continue;
       lies = false;
       const double towards_b = contact.normal.dot(world_.state_at(body, now).velocity_at(contact.point));
       const bool into = body == contact.body_a ? towards_b > 0 : towards_b < 0;
@@ -185,7 +186,7 @@ class Stepper {
 
   void open(int a, int b, double now) {
     ++report_.pairs;
-    if (is_sensor_pair(world_, a, b) && sight(a, b, now)) return;  // until one of them takes a new course
+    if (is_sensor_pair(world_, a, b) && sight(a, b, now)) return;  // until one of them begins a new motion
     ask(schedule_.open(a, b), now);
   }
 
@@ -207,7 +208,7 @@ class Stepper {
   StepReport& report_;
   const Listeners& listeners_;
   std::vector<int> others_;
-  std::vector<char> done_;       // of each body, in new_courses()
+  std::vector<char> done_;       // of each body, in new_motions()
   std::vector<PairGap> solved_;  // the pairs that touched at the last instant, and its time
   double solved_at_ = -1;
 };
@@ -248,26 +249,26 @@ void Stepper::solve(const Island& island, double now) {
       const RigidBody& state = local.states[i];
       const bool same =
           is_still(body) && state.velocity == body.state.velocity && state.spin == body.state.spin;
-      if (same) continue;  // a held body that was not hit stays held
-      if (body.held) lose(now - body.time);
+      if (same) continue;  // a frozen body that was not hit stays frozen
+      if (body.frozen) lose(now - body.time);
       changed.push_back(island.bodies[i]);
     }
   if (world_.effects.sleep) wake(world_, now, changed, report_);
   for (const int body : changed) {
     const auto place = std::find(island.bodies.begin(), island.bodies.end(), body) - island.bodies.begin();
     const bool hit = place < static_cast<std::ptrdiff_t>(island.bodies.size());
-    world_.set_course(body, hit ? local.states[static_cast<std::size_t>(place)] : world_.state_at(body, now),
+    world_.set_motion(body, hit ? local.states[static_cast<std::size_t>(place)] : world_.state_at(body, now),
                       now);
   }
   if (listeners_.impact)
     for (const lcp::Impulse& impulse : impact.impulses)
       listeners_.impact({now, island.contacts[impulse.contact], impulse});
-  new_courses(changed, now);
+  new_motions(changed, now);
 }
 
 StepReport step(World& world, double dt, const Listeners& listeners, Planner* planner);
 
-// A frame that is cut where bodies with a path take new courses.
+// A frame that is cut where bodies with a path begin new motions.
 StepReport step_in_parts(World& world, double dt, const Listeners& listeners, Planner* planner) {
   StepReport all;
   all.min_gap = std::numeric_limits<double>::infinity();
@@ -303,7 +304,7 @@ StepReport step(World& world, double dt, const Listeners& listeners, Planner* pl
   while (true) {
     if (planner != nullptr && planner->next_end() <= std::min(world.schedule.next_time(), dt)) {
       now = planner->next_end();
-      stepper.new_courses(planner->end_plans(world, now, report, listeners), now);
+      stepper.new_motions(planner->end_plans(world, now, report, listeners), now);
       continue;
     }
     if (!stepper.next(next, now)) break;
@@ -320,7 +321,7 @@ StepReport step(World& world, double dt, const Listeners& listeners, Planner* pl
     }
 
     if (planner != nullptr) {
-      stepper.new_courses(planner->meet(world, pair.a, pair.b, now, report, listeners), now);
+      stepper.new_motions(planner->meet(world, pair.a, pair.b, now, report, listeners), now);
       continue;
     }
 
@@ -329,22 +330,22 @@ StepReport step(World& world, double dt, const Listeners& listeners, Planner* pl
     stepper.solve(island, now);
     if (listeners.instant) listeners.instant(world, now);
 
-    // If nobody's course has changed, its event is gone, and it must be asked again.
+    // If no motion has changed, its event is gone, and it must be asked again.
     const int again = world.schedule.find(pair.a, pair.b);
     if (again < 0) continue;  // by now the two do not come near each other
     if (world.schedule.pair(again).answers == pair.answers) stepper.ask(again, now);
     // No gap left to spend, and still closing in: impacts would pile up without end.
-    if (pair.stalled && world.schedule.pair(again).stalled) stepper.hold(island, now);
+    if (pair.stalled && world.schedule.pair(again).stalled) stepper.freeze(island, now);
   }
   // ANCHOR_END: step
 
   if (world.effects.sleep && planner == nullptr) fall_asleep(world, dt, report);
   for (int body = 0; body < static_cast<int>(world.bodies.size()); ++body) {
     Body& b = world.bodies[body];
-    if (b.held) report.lost_time = std::max(report.lost_time, dt - b.time);
-    world.carry(body, dt, 0);
-    b.was_held = b.held && b.group < 0;  // a group lives through the frame
-    b.held = false;
+    if (b.frozen) report.lost_time = std::max(report.lost_time, dt - b.time);
+    world.advance_to(body, dt, 0);
+    b.was_frozen = b.frozen && b.group < 0;  // a group lives through the frame
+    b.frozen = false;
     b.group = -1;
     b.group_velocity = Vec3::Zero();
   }

@@ -76,7 +76,8 @@ void refuse_overlaps(const World& world, const Scene& scene) {
   for (int a = 0; a < count; ++a) {
     std::vector<int> others;
     tree.overlapping(boxes[a], [&](int b) {
-      if (b > a && (world.yields(a) || world.yields(b)) && !is_sensor_pair(world, a, b)) others.push_back(b);
+      if (b > a && (world.is_dynamic(a) || world.is_dynamic(b)) && !is_sensor_pair(world, a, b))
+        others.push_back(b);
     });
     std::sort(others.begin(), others.end());
     for (const int b : others) refuse_overlap(world, scene, a, b);
@@ -120,7 +121,7 @@ RigidBody as_it_moves(const Body& body, RigidBody state) {
   if (body.plan.number >= 0) {
     state.velocity = body.plan.linear;
     state.spin = body.plan.angular;
-  } else if (body.held) {
+  } else if (body.frozen) {
     state.velocity = body.group_velocity;
     state.spin = Vec3::Zero();
   }
@@ -131,9 +132,9 @@ ca::Motion World::motion(int body, double time) const {
   const Body& b = bodies[body];
   const RigidBody state = state_at(body, time);
   ca::Motion motion(as_it_moves(b, state));
-  if ((b.held && b.group < 0) || b.asleep || state.is_static() || b.plan.number >= 0) return motion;
-  if (b.held) {  // as the group moves
-    motion.velocity = course(body, time).velocity;
+  if ((b.frozen && b.group < 0) || b.asleep || state.is_static() || b.plan.number >= 0) return motion;
+  if (b.frozen) {  // as the group moves
+    motion.velocity = centre_motion(body, time).velocity;
     add_forces(b, motion);
     return motion;
   }
@@ -166,11 +167,11 @@ RigidBody World::state_at(int body, double time) const {
   RigidBody state = bodies[body].state;
   const double elapsed = time - bodies[body].time;
   const Body& b = bodies[body];
-  if (elapsed == 0 || (b.plan.number < 0 && stays(body))) return state;
+  if (elapsed == 0 || (b.plan.number < 0 && is_stationary(body))) return state;
   ca::Motion motion(as_it_moves(b, state));
   const bool planned = b.plan.number >= 0;
-  if (yields(body) && !b.held && !b.asleep && !planned) add_effects(body, motion);
-  if (b.held && b.group >= 0) {  // forces change the velocities that it keeps, too
+  if (is_dynamic(body) && !b.frozen && !b.asleep && !planned) add_effects(body, motion);
+  if (b.frozen && b.group >= 0) {  // forces change the velocities that it keeps, too
     add_forces(b, motion);
     ca::Motion kept(state);
     add_forces(b, kept);
@@ -180,7 +181,7 @@ RigidBody World::state_at(int body, double time) const {
   if (planned) {
     state.velocity += elapsed * b.plan.push;
     state.spin += elapsed * b.plan.turn;
-  } else if (!b.held) {
+  } else if (!b.frozen) {
     state.velocity = motion.velocity_at(elapsed);
     state.spin = motion.spin_at(elapsed);
   }
@@ -193,15 +194,15 @@ RigidBody World::state_at(int body, double time) const {
   return state;
 }
 
-void World::set_course(int body, const RigidBody& state, double time) {
+void World::set_motion(int body, const RigidBody& state, double time) {
   Body& b = bodies[body];
   b.state = state;
   b.time = time;
-  b.held = b.asleep = false;
+  b.frozen = b.asleep = false;
   b.plan = {};
   b.group = -1;
   b.group_velocity = Vec3::Zero();
-  if (!effects.gyroscopic || !yields(body) || state.free_turns != Vec3::Ones()) return;
+  if (!effects.gyroscopic || !is_dynamic(body) || state.free_turns != Vec3::Ones()) return;
   ca::Motion motion(state);
   motion.turn_freely(principal[b.shape]);
   b.free = motion.free;
@@ -209,11 +210,11 @@ void World::set_course(int body, const RigidBody& state, double time) {
   b.free_rate = 1;
 }
 
-void World::carry(int body, double time, double name) {
+void World::advance_to(int body, double time, double relabel) {
   Body& b = bodies[body];
   const double elapsed = time - b.time;
-  const Vec3 group_velocity = b.group >= 0 ? course(body, time).velocity : Vec3(Vec3::Zero());
-  b.clock += (b.held ? b.time : time) - name;  // who is held is late from then on
+  const Vec3 group_velocity = b.group >= 0 ? centre_motion(body, time).velocity : Vec3(Vec3::Zero());
+  b.clock += (b.frozen ? b.time : time) - relabel;  // who is frozen is late from then on
   b.state = state_at(body, time);
   b.group_velocity = group_velocity;
   if (b.free && b.plan.number >= 0) {  // from here on it turns freely again
@@ -222,19 +223,19 @@ void World::carry(int body, double time, double name) {
     b.free = motion.free;
     b.free_start = 0;
     b.free_rate = 1;
-  } else if (b.free && !b.held) {
+  } else if (b.free && !b.frozen) {
     turn_on(effects.drag ? effects.drag->angular : 0, elapsed, b.free_start, b.free_rate);
   }
-  b.time = name;
+  b.time = relabel;
 }
 
-ca::Motion World::course(int body, double time) const {
+ca::Motion World::centre_motion(int body, double time) const {
   const Body& b = bodies[body];
   ca::Motion path;
   path.position = b.state.position;
-  if (stays(body)) return path;
+  if (is_stationary(body)) return path;
   path.velocity = as_it_moves(b, b.state).velocity;
-  if (yields(body) && (!b.held || b.group >= 0) && !b.asleep && b.plan.number < 0) add_forces(b, path);
+  if (is_dynamic(body) && (!b.frozen || b.group >= 0) && !b.asleep && b.plan.number < 0) add_forces(b, path);
   const double elapsed = time - b.time;
   const Vec3 position = path.position_at(elapsed), velocity = path.velocity_at(elapsed);
   path.position = position;
@@ -244,11 +245,11 @@ ca::Motion World::course(int body, double time) const {
 
 Bounds World::swept_bounds(int body, double from, double to) const {
   if (!effects.swept) return {Vec3::Constant(-kEverywhere), Vec3::Constant(kEverywhere)};
-  const ca::Motion path = course(body, from);
+  const ca::Motion path = centre_motion(body, from);
   const double end = to - from;
   // What the body fills about its centre: a box if it does not turn, a ball if it does.
   const Body& b = bodies[body];
-  const bool turns = !stays(body) && as_it_moves(b, b.state).spin != Vec3::Zero();
+  const bool turns = !is_stationary(body) && as_it_moves(b, b.state).spin != Vec3::Zero();
   const bool ball = turns || ball_radius[b.shape] > 0;
   const Vec3 half = ball ? Vec3(Vec3::Constant(shapes[b.shape].reach))
                          : Vec3(b.state.orientation.toRotationMatrix().cwiseAbs() * half_extents[b.shape]);
@@ -302,7 +303,7 @@ World build_world(const Scene& scene) {
       state = body.path->at(0, 0);
     }
     world.bodies.push_back(body);
-    world.set_course(static_cast<int>(world.bodies.size()) - 1, state, 0);
+    world.set_motion(static_cast<int>(world.bodies.size()) - 1, state, 0);
   }
   world.tolerance = std::max(scene.ccd.tolerance, least_tolerance(world));
   refuse_overlaps(world, scene);

@@ -19,9 +19,9 @@
 
 namespace fc::world {
 
-// A course that is not free flight, from the body's `time` on: it goes straight on and turns with constant spin, and its
+// A motion that is not free flight, from the body's `time` on: it goes straight on and turns with constant spin, and its
 // velocities meanwhile change evenly. The bodies of one plan are proved to keep apart from each other, and from all that
-// nothing moves, until they get another course.
+// nothing moves, until they get another one.
 struct Plan {
   int number = -1;                                     // -1: the body flies
   Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();  // m/s, rad/s, of the path
@@ -35,18 +35,18 @@ struct Body {
   RigidBody state;
   double time = 0;
   int shape = 0;
-  // Held until the frame's end, see step(): it keeps its velocities, but stays where it is; or, one of a group that touches
+  // Frozen until the frame's end, see step(): it keeps its velocities, but stays where it is; or, one of a group that touches
   // nothing fixed, moves with the group's centre of mass.
-  bool held = false;
+  bool frozen = false;
   int group = -1;  // the group's number: that of one of its bodies; -1: it stays where it is
   Vec3 group_velocity = Vec3::Zero();  // m/s, of the group's centre of mass, at `time`
   bool sensor = false;                 // reports contacts, resolves none
   bool asleep = false;                 // at rest until something hits it: see sleep.hpp
-  bool was_held = false;               // until the end of the last frame
-  bool lies = false;                   // held, and on nothing that moves
+  bool was_frozen = false;             // until the end of the last frame
+  bool lies = false;                   // frozen, and on nothing that moves
   Plan plan;                           // if a Planner made one
   // Of a kinematic body that follows one, and the time on it (s) at which the frame, or the part of it that is
-  // being stepped, began: the world's, less what the body was held.
+  // being stepped, began: the world's, less what the body was frozen.
   std::shared_ptr<const Path> path;
   double clock = 0;
   double still = 0;  // s, how long it has lain without a break
@@ -64,7 +64,7 @@ struct Sighting {
   double speed = 0;                                  // m/s, n.(v_body - v_sensor) there
 };
 
-// A body's state with the velocities that its points have: if it is held, its group's or none; if it is planned, its path's.
+// A body's state with the velocities that its points have: if it is frozen, its group's or none; if it is planned, its path's.
 RigidBody as_it_moves(const Body& body, RigidBody state);
 
 struct World {
@@ -82,55 +82,56 @@ struct World {
   double tolerance = 1e-6;                   // m; the scene's, or what rounding allows at least
   std::int64_t max_pairs = 1'000'000;        // of nodes, for one search; it then goes on from where it got to
   double part_start = 0;  // s, in the frame: from where the times of its bodies count, if it is cut in parts
-  double reserve = 0;     // m, half of which a pair has left when it is stopped; 0: the tolerance
+  double rest_gap = 0;    // m, half of which a pair has left when it is stopped; 0: the tolerance
   lcp::ImpactOptions impact = {};  // the solver of an instant's contacts
   SolverSpec solver;               // what the scene says of it
 
   const hulls::Model& model_of(int body) const { return models[bodies[body].shape]; }
-  double keep() const { return std::max(tolerance, reserve); }  // m: see find_next_contact()
+  double keep() const { return std::max(tolerance, rest_gap); }  // m: see find_next_contact()
   double restitution_of(int a, int b) const {
     return pair_rules.restitution(shapes, bodies[a].shape, bodies[b].shape);
   }
-  // The body begins a new course: its state, standing at `time` (s in the frame), was set by something other
+  // The body begins a new motion: its state, standing at `time` (s in the frame), was set by something other
   // than its own motion.
-  void set_course(int body, const RigidBody& state, double time);
-  // The body's state, moved along its course to stand at `time`, which from then on is called `name`.
-  void carry(int body, double time, double name);
+  void set_motion(int body, const RigidBody& state, double time);
+  // The body's state, moved on to stand at `time`, a time that is called `relabel` from then on.
+  void advance_to(int body, double time, double relabel);
   // The motion of a body from a time in the frame on; one that stays stands still.
   ca::Motion motion(int body, double time) const;
   // The body's state moved to a time in the frame.
   RigidBody state_at(int body, double time) const;
-  // Whether it stays where it is until the frame's end, if nothing hits it.
-  bool stays(int body) const {
+  // Whether it stays where it is until the frame's end, if nothing hits it. (It may have a velocity that it does not follow.)
+  bool is_stationary(int body) const {
     const Body& b = bodies[body];
-    if ((b.held && b.group < 0) || b.asleep) return true;
+    if ((b.frozen && b.group < 0) || b.asleep) return true;
     const bool falls =
         !b.state.is_static() && effects.gravity && b.plan.number < 0 && !b.state.free_moves.isZero(0);
     const RigidBody moving = as_it_moves(b, b.state);
     return !falls && moving.velocity.isZero(0) && moving.spin.isZero(0);
   }
-  // Whether two bodies are held as parts of one group: they do not move relative to each other.
-  bool held_together(int a, int b) const {
+  // Whether two bodies are frozen as parts of one group: they do not move relative to each other.
+  bool frozen_together(int a, int b) const {
     return bodies[a].group >= 0 && bodies[a].group == bodies[b].group;
   }
   // Whether a plan has proved already that two bodies keep apart.
   bool planned_apart(int a, int b) const {
     const int plan_a = bodies[a].plan.number, plan_b = bodies[b].plan.number;
-    return (plan_a >= 0 && (plan_a == plan_b || !yields(b))) || (plan_b >= 0 && !yields(a));
+    return (plan_a >= 0 && (plan_a == plan_b || !is_dynamic(b))) || (plan_b >= 0 && !is_dynamic(a));
   }
   // Whether an impulse at the body's surface can turn it, or its spin moves its surface along the normal.
   bool turns(int body) const { return effects.arms || ball_radius[bodies[body].shape] == 0; }
   // Whether two bodies are to be asked for contacts at all: one of them moves, and one can be moved, or is a
   // sensor.
   bool may_meet(int a, int b) const {
-    if (bodies[a].sensor || bodies[b].sensor) return !(stays(a) && stays(b));
-    return !(stays(a) && stays(b)) && (yields(a) || yields(b)) && !planned_apart(a, b);
+    if (bodies[a].sensor || bodies[b].sensor) return !(is_stationary(a) && is_stationary(b));
+    return !(is_stationary(a) && is_stationary(b)) && (is_dynamic(a) || is_dynamic(b)) &&
+           !planned_apart(a, b);
   }
   bool convex(int body) const { return shapes[bodies[body].shape].convex(); }
-  // Whether it moves, whatever lies on it.
-  bool carries(int body) const { return !yields(body) && !stays(body); }
+  // Whether it moves, and no impulse can change that.
+  bool is_moving_kinematic(int body) const { return !is_dynamic(body) && !is_stationary(body); }
   // Whether an impulse can move the body.
-  bool yields(int body) const { return !bodies[body].state.is_static(); }
+  bool is_dynamic(int body) const { return !bodies[body].state.is_static(); }
   // The acceleration that gravity gives a body, where there is gravity: nothing along what is fixed.
   Vec3 gravity_on(const RigidBody& state) const { return effects.gravity->cwiseProduct(state.free_moves); }
   // What the effects make of a body's motion from the time on at which its state stands: forces alone, or
@@ -138,7 +139,7 @@ struct World {
   void add_forces(const Body& body, ca::Motion& motion) const;
   void add_effects(int body, ca::Motion& motion) const;
   // The centre's place and velocity at a time in the frame, and its acceleration: all that matters of a ball.
-  ca::Motion course(int body, double time) const;
+  ca::Motion centre_motion(int body, double time) const;
   // A box around everything that the body reaches between two times in the frame, and the tolerance around
   // that.
   Bounds swept_bounds(int body, double from, double to) const;
@@ -156,7 +157,7 @@ struct StepReport {
   double lcp_residual = 0;  // the worst
   double min_gap = 0;       // m, the smallest certified gap of the pairs that were examined; infinite if none
   double max_penetration = 0;  // m
-  double lost_time = 0;        // s, the longest that a body was held
+  double lost_time = 0;        // s, the longest that a body was frozen
   double momentum_error = 0;   // the worst change at an impact, of sum |p| and of sum (|x||p| + |I w|)
   double energy_error =
       0;  // J, the worst difference between the change at an impact and what the law predicts
@@ -193,7 +194,7 @@ struct Listeners {
 };
 
 // What a later chapter puts in the place of an instant's impacts: bodies in contact that go on together. Times are in s,
-// within the frame. Each function returns the bodies that have got another course.
+// within the frame. Each function returns the bodies that have got another motion.
 class Planner {
  public:
   virtual ~Planner() = default;
@@ -216,13 +217,13 @@ class Planner {
 // again; and so on until no contact is left in the frame. Guarantee: at no time do two bodies come nearer
 // than a positive gap if they started so (those that start touching or overlapping by rounding come no nearer
 // than 64 rounding terms of it). Where impacts pile up so that a pair has less than a hundredth of the
-// tolerance left to spend, its island is held until the frame's end, and keeps its velocities: it stays where it is, or,
+// tolerance left to spend, its island is frozen until the frame's end, and keeps its velocities: it stays where it is, or,
 // if it touches nothing fixed, goes on with its centre of mass, without turning, so that only motion relative to that is
 // lost. The time that it did not live is reported as lost_time. Throws NumericalFailure if an LCP
 // cannot be solved, or a search reaches its limit without progress; std::invalid_argument for a dt that is
 // not finite and > 0, and then nothing has moved.
 StepReport step(World& world, double dt, const Listeners& listeners = {});
-// The same with a planner, which plans those bodies that do not fly, and solves all contacts; nothing is held.
+// The same with a planner, which plans those bodies that do not fly, and solves all contacts; nothing is frozen.
 StepReport step_with(Planner& planner, World& world, double dt, const Listeners& listeners = {});
 
 }  // namespace fc::world

@@ -142,7 +142,7 @@ struct ClearDraft {
   double now, length;  // s
   std::vector<Member> members;
   std::vector<RigidBody> mean, fast, path, ends;  // with velocities u, w, and y; at the end of y, with w
-  std::vector<Track> tracks;                      // along y
+  std::vector<Path> paths;                        // along y
   std::vector<char> planned;                      // of each member: it is pushed, or ends in contact
   std::vector<Row> rows;
   std::vector<lcp::Contact> starts;  // of the rows, now; bodies by their places among the members
@@ -169,12 +169,13 @@ ClearDraft::ClearDraft(const World& world_, Contacts& contacts_, const Island& i
     return std::any_of(members.begin(), members.end(), [&](const Member& m) { return m.number == body; });
   };
   for (int body = 0; body < std::ssize(world.bodies); ++body)
-    if (!world.yields(body) && !is_member(body)) members.push_back({body, world.state_at(body, now), false});
+    if (!world.is_dynamic(body) && !is_member(body))
+      members.push_back({body, world.state_at(body, now), false});
   mean = states_of(members);
   for (int i = 0; i < std::ssize(members); ++i) {
     if (members[i].dynamic && world.effects.gravity)
       mean[i].velocity += 0.5 * length * world.gravity_on(mean[i]);
-    tracks.push_back(track_of(world, members[i].number, now, length));
+    paths.push_back(path_of(world, members[i].number, now, length));
   }
   for (const IslandPair& pair : island.pairs)
     for (const ContactPoint& point : pair.contacts->points)
@@ -204,9 +205,9 @@ VecX ClearDraft::room(bool correcting) const {
 void ClearDraft::follow_paths() {
   ends = fast;
   for (int i = 0; i < std::ssize(members); ++i) {
-    Track& t = tracks[i];
+    Path& t = paths[i];
     if (members[i].dynamic)
-      t = straight_track(members[i].state, path[i].velocity, path[i].spin, t.reach, length);
+      t = straight_path(members[i].state, path[i].velocity, path[i].spin, t.reach, length);
     ends[i].position = t.end.position;
     ends[i].orientation = Quat(t.end.rotation);
   }
@@ -228,11 +229,11 @@ bool ClearDraft::has_new_rows() {
   return ++proofs <= kMostProofs && std::ssize(rows) > std::exchange(known, std::ssize(rows));
 }
 
-// Chapter 4's gap rule for a pair on its way through the plan: it keeps half of its gap, or of the rest gap.
+// Chapter 4's gap rule for a pair on its paths in the plan: it keeps half of its gap, or of the rest gap.
 bool ClearDraft::is_clear(int i, int j) {
   PairContacts& pair = contacts.pair(members[i].number, members[j].number);
   if (pair.a != members[i].number) std::swap(i, j);
-  const Track &a = tracks[i], &b = tracks[j];
+  const Path &a = paths[i], &b = paths[j];
   contacts.update(world, pair, a.start, b.start);
   const double rounding = ca::rounding_term(world.model_of(pair.a).whole(), world.model_of(pair.b).whole(),
                                             ca::PairPose(a.start, b.start));
@@ -258,7 +259,7 @@ void remember(const ClearDraft& draft) {
 ClearResting::ClearResting(const Scene& scene, World& world, double dt)
     : contacts_(world, envelope_of(scene, world, dt)),
       islands_(contacts_, world.bodies.size()),
-      no_crowds_(world.bodies.size(), -1),
+      no_piles_(world.bodies.size(), -1),
       frame_(dt),
       dt_(dt) {
   const bool all_convex =
@@ -267,7 +268,7 @@ ClearResting::ClearResting(const Scene& scene, World& world, double dt)
       world.effects.gyroscopic)
     throw InputError(scene.mark("envelope").value_or(SourceMark{scene.file.string()}),
                      "the clear version knows only convex bodies and gravity; take Resting");
-  world.reserve = 0.5 * envelope();
+  world.rest_gap = 0.5 * envelope();
 }
 
 ClearReport ClearResting::step(World& world, const Listeners& listeners) {
@@ -286,7 +287,7 @@ std::vector<int> ClearResting::begin(World& world, double dt, world::StepReport&
   plans_.clear();
   std::vector<int> bodies;
   for (int body = 0; body < std::ssize(world.bodies); ++body)
-    if (world.yields(body)) bodies.push_back(body);
+    if (world.is_dynamic(body)) bodies.push_back(body);
   return go_on(world, bodies, 0);
 }
 
@@ -311,7 +312,7 @@ std::vector<int> ClearResting::meet(World& world, int a, int b, double now, worl
   listeners_ = &listeners;
   std::vector<int> bodies;
   for (const int body : {a, b})
-    if (world.yields(body)) bodies.push_back(body);
+    if (world.is_dynamic(body)) bodies.push_back(body);
   return go_on(world, bodies, now);
 }
 
@@ -329,17 +330,17 @@ std::vector<int> ClearResting::go_on(World& world, std::vector<int> bodies, doub
   std::vector<int> changed;
   for (int i = 0; i < std::ssize(bodies); ++i) {  // the list grows
     if (islands_.is_in_island(bodies[i])) continue;
-    Island island = islands_.grow(world, bodies[i], no_crowds_);
+    Island island = islands_.grow(world, bodies[i], no_piles_);
     for (Member& member : island.members) {
       if (!member.dynamic) continue;
       end_plan_of(world, member.number, now, bodies);
-      world.carry(member.number, now, now);
+      world.advance_to(member.number, now, now);
       member.state = world.bodies[member.number].state;
       changed.push_back(member.number);
     }
     stop_what_closes(world, island, now);
     for (const Member& member : island.members)
-      if (member.dynamic) world.set_course(member.number, member.state, now);
+      if (member.dynamic) world.set_motion(member.number, member.state, now);
     if (!island.pairs.empty() && now < dt_) plan(world, island, now);
   }
   return now < dt_ ? changed : std::vector<int>{};
@@ -351,7 +352,7 @@ void ClearResting::end_plan_of(World& world, int body, double now, std::vector<i
   if (number < 0) return;
   Plan& plan = plans_[number];
   for (const int member : plan.bodies) {
-    world.carry(member, now, now);
+    world.advance_to(member, now, now);
     world.bodies[member].plan = {};
     bodies.push_back(member);
   }

@@ -18,7 +18,7 @@ struct ClearDraft;  // a plan in the making, see clear.cpp
 
 class ClearResting : public world::Planner {
  public:
-  // Sets the world's reserve. Throws as envelope_of(), and InputError for what it does not do: meshes, drag, sleep, sensors,
+  // Sets the world's rest gap. Throws as envelope_of(), and InputError for what it does not do: meshes, drag, sleep, sensors,
   // free rotation.
   ClearResting(const Scene& scene, world::World& world, double dt);
 
@@ -52,9 +52,9 @@ class ClearResting : public world::Planner {
 
   Contacts contacts_;
   IslandFinder islands_;
-  std::vector<int> no_crowds_;  // of each body: it is in none
-  double frame_, dt_;           // s, of a frame, and of the part of it at hand
-  std::vector<Plan> plans_;     // of this frame
+  std::vector<int> no_piles_;  // of each body: it is in none
+  double frame_, dt_;          // s, of a frame, and of the part of it at hand
+  std::vector<Plan> plans_;    // of this frame
   ClearReport report_;
   const world::Listeners* listeners_ = nullptr;
 };

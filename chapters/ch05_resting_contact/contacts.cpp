@@ -62,7 +62,7 @@ SurfacePoint surface_point(const hulls::Model& model, const Vec3& point, const V
 
 Contacts::Contacts(const world::World& world, double margin) : margin_(margin) {
   for (std::size_t s = 0; s < world.shapes.size(); ++s)
-    facets_.push_back(world.shapes[s].convex() ? build_facets(world.models[s].mesh) : Facets{});
+    face_lists_.push_back(world.shapes[s].convex() ? build_face_list(world.models[s].mesh) : FaceList{});
 }
 
 PairContacts& Contacts::pair(int a, int b) {
@@ -90,9 +90,9 @@ void Contacts::update(const world::World& world, PairContacts& pair, const Pose&
                reach_b = world.shapes[world.bodies[pair.b].shape].reach;
   pair.axis_known = false;
   if (pair.known) {
-    const double way = reach_a < reach_b ? moved(pair.searched, seen_from(b, a), reach_a)
-                                         : moved(pair.searched, seen_from(a, b), reach_b);
-    pair.gap = pair.searched_gap - way;
+    const double distance = reach_a < reach_b ? moved(pair.searched, seen_from(b, a), reach_a)
+                                              : moved(pair.searched, seen_from(a, b), reach_b);
+    pair.gap = pair.searched_gap - distance;
     if (pair.gap > reach) {
       pair.points.clear();
       return;
@@ -101,10 +101,10 @@ void Contacts::update(const world::World& world, PairContacts& pair, const Pose&
       pair.axis_gap = axis_gap(world, pair, a, b);
       pair.axis_known = true;
     }
-    if (!pair.points.empty() && way <= again) {
+    if (!pair.points.empty() && distance <= again) {
       if (is_convex) pair.gap = std::max(pair.gap, pair.axis_gap);
       // A bound that says too little would let the path come nearer than it may.
-      if (way == 0 || pair.gap > kLeastKnown * margin_) return;
+      if (distance == 0 || pair.gap > kLeastKnown * margin_) return;
     }
     if (is_convex && pair.axis_gap > reach) {
       pair.searched = reach_a < reach_b ? seen_from(b, a) : seen_from(a, b);
@@ -182,8 +182,8 @@ void Contacts::add(PairContacts& pair, const ContactPoint& point, const std::vec
 double Contacts::search_convex(const world::World& world, PairContacts& pair, const Pose& a, const Pose& b,
                                double reach) {
   const ca::PairPose pose(a, b);
-  const PatchSide side_a{world.model_of(pair.a), facets_[at(world.bodies[pair.a].shape)]},
-      side_b{world.model_of(pair.b), facets_[at(world.bodies[pair.b].shape)]};
+  const PatchSide side_a{world.model_of(pair.a), face_lists_[at(world.bodies[pair.a].shape)]},
+      side_b{world.model_of(pair.b), face_lists_[at(world.bodies[pair.b].shape)]};
   const auto slack = [&](double gap) { return std::clamp(0.25 * gap, 0.0, kSlack * margin_); };
   Patch patch;
   ca::GjkResult result;

@@ -135,7 +135,7 @@ class Contacts {
   static void add(PairContacts& pair, const ContactPoint& point, const std::vector<ContactPoint>& before);
 
   double margin_;
-  std::vector<Facets> facets_;  // of each shape
+  std::vector<FaceList> face_lists_;  // of each shape
   std::unordered_map<std::uint64_t, PairContacts> pairs_;
   std::int64_t frame_ = 0, searched_ = 0, number_ = 0;
 };

@@ -15,7 +15,7 @@ constexpr double kWider = 0.5;
 constexpr int kMostStarts = 16;
 constexpr double kWiderIfKept = 0.05;
 
-// Of the margin: contact points of a crowd are searched anew after so much motion.
+// Of the margin: contact points of a pile are searched anew after so much motion.
 constexpr double kAgain = 4;
 
 // The mean of the spin that turns one orientation into another in a time.
@@ -48,7 +48,7 @@ void Courses::start(const world::World& world, std::span<const Member> all, doub
   members.clear();
   drift.clear();
   last.clear();
-  tracks.clear();
+  paths.clear();
   moved_.clear();
   candidates.clear();
   boxes_.clear();
@@ -56,7 +56,7 @@ void Courses::start(const world::World& world, std::span<const Member> all, doub
 }
 
 // Whether the pairs of the last start will do, with those of bodies that leave their boxes: for a while, of the same bodies, if
-// nothing is driven.
+// no kinematic body moves.
 bool Courses::keeps(const world::World& world, std::span<const Member> all) {
   const bool recent =
       std::exchange(frame_, contacts_.frame()) + 1 >= contacts_.frame();  // else pairs may be forgotten
@@ -64,7 +64,7 @@ bool Courses::keeps(const world::World& world, std::span<const Member> all) {
   for (std::size_t i = 0; i < first_; ++i)
     if (members[i].number != all[i].number) return false;
   for (int body = 0; body < static_cast<int>(world.bodies.size()); ++body)
-    if (world.carries(body)) return false;
+    if (world.is_moving_kinematic(body)) return false;
   return true;
 }
 
@@ -74,17 +74,17 @@ void Courses::add_member(const world::World& world, const Member& member) {
   moved_.push_back(0);
   drift.emplace_back();
   last.emplace_back();
-  tracks.emplace_back();
+  paths.emplace_back();
   set_member(world, members.size() - 1, member);
 }
 
 void Courses::set_member(const world::World& world, std::size_t i, const Member& member) {
   members[i] = member;
   if (!member.dynamic) {
-    tracks[i] = track_of(world, member.number, now_, length_);
-    members[i].state.velocity = tracks[i].motion.velocity;
-    members[i].state.spin = tracks[i].motion.spin;
-    drift[i] = {tracks[i].motion.velocity, tracks[i].motion.spin};
+    paths[i] = path_of(world, member.number, now_, length_);
+    members[i].state.velocity = paths[i].motion.velocity;
+    members[i].state.spin = paths[i].motion.spin;
+    drift[i] = {paths[i].motion.velocity, paths[i].motion.spin};
     last[i] = {};
     return;
   }
@@ -98,7 +98,7 @@ void Courses::set_member(const world::World& world, std::size_t i, const Member&
                   : flight.spin;
   last[i] = {flight.velocity_at(length_) - u.linear, flight.spin_at(length_) - u.angular};
   const double reach = world.shapes[at(world.bodies[at(member.number)].shape)].reach;
-  tracks[i] = straight_track(member.state, u.linear, u.angular, reach, length_);
+  paths[i] = straight_path(member.state, u.linear, u.angular, reach, length_);
 }
 
 std::vector<RigidBody> Courses::with(const std::vector<Twist>& velocities) const {
@@ -111,16 +111,16 @@ std::vector<RigidBody> Courses::with(const std::vector<Twist>& velocities) const
   return bodies;
 }
 
-void Courses::go(int member, const Twist& path) {
-  Track& track = tracks[at(member)];
-  if (!members[at(member)].dynamic || (track.velocity == path.linear && track.spin == path.angular)) return;
+void Courses::go(int member, const Twist& twist) {
+  Path& path = paths[at(member)];
+  if (!members[at(member)].dynamic || (path.velocity == twist.linear && path.spin == twist.angular)) return;
   moved_[at(member)] +=
-      length_ * ((path.linear - track.velocity).norm() + track.reach * (path.angular - track.spin).norm());
-  track = straight_track(members[at(member)].state, path.linear, path.angular, track.reach, length_);
+      length_ * ((twist.linear - path.velocity).norm() + path.reach * (twist.angular - path.spin).norm());
+  path = straight_path(members[at(member)].state, twist.linear, twist.angular, path.reach, length_);
 }
 
 world::Bounds Courses::box_of(const world::World& world, int member) const {
-  const Track& t = tracks[at(member)];
+  const Path& t = paths[at(member)];
   const std::size_t shape = at(world.bodies[at(members[at(member)].number)].shape);
   const double turn = std::min(2.0, t.spin_rate * length_) * t.reach;
   const Vec3 half =
@@ -130,8 +130,8 @@ world::Bounds Courses::box_of(const world::World& world, int member) const {
 }
 
 // By how much the two may come nearer each other.
-double Courses::way(const Candidate& pair) const {
-  const Track &a = tracks[at(pair.a)], &b = tracks[at(pair.b)];
+double Courses::approach(const Candidate& pair) const {
+  const Path &a = paths[at(pair.a)], &b = paths[at(pair.b)];
   return length_ * ((b.velocity - a.velocity).norm() + a.spin_rate * a.reach + b.spin_rate * b.reach);
 }
 
@@ -155,9 +155,9 @@ void Courses::add_pair(const world::World& world, int i, int j, bool far) {
 // The pair's contacts at the start.
 void Courses::update(const world::World& world, const Candidate& pair, bool far) {
   SearchOptions options;
-  options.reach = contacts_.margin() + (far ? way(pair) : 0);
+  options.reach = contacts_.margin() + (far ? approach(pair) : 0);
   if (far) options.again = kAgain * contacts_.margin();
-  contacts_.update(world, *pair.contacts, tracks[at(pair.a)].start, tracks[at(pair.b)].start, options);
+  contacts_.update(world, *pair.contacts, paths[at(pair.a)].start, paths[at(pair.b)].start, options);
 }
 
 // Members whose paths have left their boxes get new ones.
@@ -171,10 +171,10 @@ std::vector<int> Courses::widen(const world::World& world) {
     world::Bounds& wide = boxes_[at(i)];
     if (!none && (box.low.array() >= wide.low.array()).all() && (box.high.array() <= wide.high.array()).all())
       continue;
-    const Track& track = tracks[at(i)];
-    const double way = length_ * (track.velocity.norm() + track.spin_rate * track.reach);
+    const Path& path = paths[at(i)];
+    const double distance = length_ * (path.velocity.norm() + path.spin_rate * path.reach);
     const Vec3 more =
-        Vec3::Constant(contacts_.margin() + kWider * way + (keep_ ? kWiderIfKept * track.reach : 0));
+        Vec3::Constant(contacts_.margin() + kWider * distance + (keep_ ? kWiderIfKept * path.reach : 0));
     wide = {box.low - more, box.high + more};
     if (!none) tree_.replace(i, wide);
     wider.push_back(i);
@@ -199,7 +199,7 @@ void Courses::find(const world::World& world, bool far) {
     for (const int j : others_) add_pair(world, i, j, far);
     others_.clear();
     world.schedule.overlapping(boxes_[at(i)], [&](int other) {
-      if (!world.yields(other) && !world::is_sensor_pair(world, members[at(i)].number, other))
+      if (!world.is_dynamic(other) && !world::is_sensor_pair(world, members[at(i)].number, other))
         others_.push_back(other);
     });
     std::sort(others_.begin(), others_.end());
@@ -213,7 +213,7 @@ void Courses::find(const world::World& world, bool far) {
   }
 }
 
-PathVerdict Courses::check(const world::World& world, const Candidate& pair, const Track& a, const Track& b,
+PathVerdict Courses::check(const world::World& world, const Candidate& pair, const Path& a, const Path& b,
                            PathOptions options) {
   ++checked_;
   constexpr double kTouching = 1.0 / 64;  // of the tolerance
@@ -221,7 +221,7 @@ PathVerdict Courses::check(const world::World& world, const Candidate& pair, con
   options.need = std::min(options.need, 0.5 * gap);
   if (gap <= kTouching * world.tolerance) {
     // It started like this, touching: then it need only not become less, but for rounding.
-    const ca::PairPose pose(tracks[at(pair.a)].start, tracks[at(pair.b)].start);
+    const ca::PairPose pose(paths[at(pair.a)].start, paths[at(pair.b)].start);
     options.need = gap - 64 * ca::rounding_term(world.model_of(pair.contacts->a).whole(),
                                                 world.model_of(pair.contacts->b).whole(), pose);
   }

@@ -1,4 +1,4 @@
-// Who goes where in a plan's time, and who comes near whom on the way.
+// The paths of a plan's bodies, and which of them come near each other on these paths.
 #pragma once
 
 #include <span>
@@ -35,7 +35,7 @@ class Courses {
   void find(const world::World& world, bool far);
   int candidate_of(PairContacts* contacts, int a, int b);
   // The member goes with these velocities.
-  void go(int member, const Twist& path);
+  void go(int member, const Twist& twist);
   // Proves the paths of all pairs that have changed so much since they were proved that this says nothing any more; whether
   // all are clear. options_of(pair): gaps stay above `need`, or half of what they were.
   template <class OptionsOf>
@@ -46,7 +46,7 @@ class Courses {
       const double since = moved - pair.moved;
       if (!pair.checked || (pair.clear ? since > pair.slack : since > 0)) {
         const PathVerdict verdict =
-            check(world, pair, tracks[at(pair.a)], tracks[at(pair.b)], options_of(pair));
+            check(world, pair, paths[at(pair.a)], paths[at(pair.b)], options_of(pair));
         pair.checked = true;
         pair.clear = verdict.clear;
         pair.time = verdict.time;
@@ -58,7 +58,7 @@ class Courses {
     return all;
   }
   // One pair, on these paths.
-  PathVerdict check(const world::World& world, const Candidate& pair, const Track& a, const Track& b,
+  PathVerdict check(const world::World& world, const Candidate& pair, const Path& a, const Path& b,
                     PathOptions options);
 
   // The members, with these velocities.
@@ -68,9 +68,9 @@ class Courses {
   int checked() const { return checked_; }
 
   std::vector<Member> members;
-  std::vector<Twist> drift;   // of each: the mean velocities of free flight
-  std::vector<Twist> last;    // what the end of free flight has more than that
-  std::vector<Track> tracks;  // of each
+  std::vector<Twist> drift;  // of each: the mean velocities of free flight
+  std::vector<Twist> last;   // what the end of free flight has more than that
+  std::vector<Path> paths;   // of each
   std::vector<Candidate> candidates;
 
  private:
@@ -81,7 +81,7 @@ class Courses {
   std::vector<int> widen(const world::World& world);
   world::Bounds box_of(const world::World& world, int member) const;
   void add_pair(const world::World& world, int i, int j, bool far);
-  double way(const Candidate& pair) const;
+  double approach(const Candidate& pair) const;
 
   Contacts& contacts_;
   bool keep_;

@@ -20,7 +20,7 @@ constexpr double kMostRounding = 1e-6;  // of the envelope: rounding of how far 
 double thinnest(const world::World& world) {
   double half = std::numeric_limits<double>::infinity();
   for (int body = 0; body < static_cast<int>(world.bodies.size()); ++body)
-    if (world.yields(body))
+    if (world.is_dynamic(body))
       half =
           std::min(half, world.half_extents[static_cast<std::size_t>(world.bodies[body].shape)].minCoeff());
   return half;
@@ -33,7 +33,7 @@ double envelope_of(const Scene& scene, const world::World& world, double dt) {
   if (envelope == 0) {
     double smallest = std::numeric_limits<double>::infinity();
     for (int body = 0; body < static_cast<int>(world.bodies.size()); ++body)
-      if (world.yields(body)) smallest = std::min(smallest, world.shapes[world.bodies[body].shape].reach);
+      if (world.is_dynamic(body)) smallest = std::min(smallest, world.shapes[world.bodies[body].shape].reach);
     envelope = smallest < std::numeric_limits<double>::infinity() ? kShareOfReach * smallest : 1;
   }
   if (envelope < kLeastTolerances * world.tolerance)

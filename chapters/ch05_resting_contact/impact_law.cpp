@@ -97,8 +97,8 @@ Touching touching(const world::World& world, const Island& island, std::span<con
 bool compress(std::vector<RigidBody>& bodies, const std::vector<lcp::Contact>& contacts,
               std::vector<double>& impulses, IslandSolver& solver, const InstantOptions& options,
               InstantResult& result) {
-  const std::vector<double> allowed(contacts.size(), 0.0);
-  const IslandResult solved = solver.solve(bodies, contacts, allowed, impulses, options.solver);
+  const std::vector<double> approach_limits(contacts.size(), 0.0);
+  const IslandResult solved = solver.solve(bodies, contacts, approach_limits, impulses, options.solver);
   result.residual = std::max(result.residual, solved.residual);
   result.steps += solved.steps;
   result.status = solved.status;

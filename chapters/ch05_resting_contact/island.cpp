@@ -17,24 +17,24 @@ void IslandFinder::begin(double now) {
 
 int IslandFinder::place_of(const world::World& world, Island& island, int body) {
   int& place = place_[at(body)];
-  const bool dynamic = world.yields(body);
+  const bool dynamic = world.is_dynamic(body);
   const bool known = dynamic ? stamp_[at(body)] == island_ : place >= 0;
   if (known) return place;
   place = static_cast<int>(island.members.size());
   if (dynamic) stamp_[at(body)] = island_;
   RigidBody state = world.state_at(body, now_);
-  if (world.bodies[at(body)].held) state.velocity = state.spin = Vec3::Zero();
+  if (world.bodies[at(body)].frozen) state.velocity = state.spin = Vec3::Zero();
   island.members.push_back({body, state, dynamic});
   return place;
 }
 
-Island IslandFinder::grow(const world::World& world, int body, const std::vector<int>& crowd_of) {
+Island IslandFinder::grow(const world::World& world, int body, const std::vector<int>& pile_of) {
   Island island;
   ++island_;
   place_of(world, island, body);
   for (std::size_t next = 0; next < island.members.size(); ++next) {
     const int i = island.members[next].number;
-    if (!island.members[next].dynamic || crowd_of[at(i)] >= 0) continue;
+    if (!island.members[next].dynamic || pile_of[at(i)] >= 0) continue;
     const Pose pose = island.members[next].state.pose();
     const auto shape = at(world.bodies[at(i)].shape);
     const Vec3 half = (pose.rotation.cwiseAbs() * world.half_extents[shape])
@@ -45,8 +45,8 @@ Island IslandFinder::grow(const world::World& world, int body, const std::vector
       if (other == i || world::is_sensor_pair(world, i, other)) return;
       // Of two that can be moved, whoever was looked at first has looked at both.
       const auto k = at(other);
-      const bool done = stamp_[k] == island_ && place_[k] < static_cast<int>(next) && crowd_of[k] < 0;
-      if (!world.yields(other) || !done) others_.push_back(other);
+      const bool done = stamp_[k] == island_ && place_[k] < static_cast<int>(next) && pile_of[k] < 0;
+      if (!world.is_dynamic(other) || !done) others_.push_back(other);
     });
     std::sort(others_.begin(), others_.end());
     for (const int other : others_) {
@@ -67,8 +67,8 @@ Island IslandFinder::grow(const world::World& world, int body, const std::vector
   return island;
 }
 
-std::vector<std::vector<int>> find_crowds(const world::World& world, Contacts& contacts, double dt,
-                                          double most_work) {
+std::vector<std::vector<int>> find_piles(const world::World& world, Contacts& contacts, double dt,
+                                         double most_work) {
   const std::size_t count = world.bodies.size();
   std::vector<int> parent(count), arrivals(count, 0), points(count, 0);
   std::iota(parent.begin(), parent.end(), 0);
@@ -77,15 +77,16 @@ std::vector<std::vector<int>> find_crowds(const world::World& world, Contacts& c
     return body;
   };
   world.schedule.overlapping_pairs([&](int a, int b) {
-    if (!world.yields(a) || !world.yields(b) || world.bodies[at(a)].sensor || world.bodies[at(b)].sensor)
+    if (!world.is_dynamic(a) || !world.is_dynamic(b) || world.bodies[at(a)].sensor ||
+        world.bodies[at(b)].sensor)
       return;
     PairContacts& pair = contacts.pair(a, b);
     const RigidBody &first = world.bodies[at(pair.a)].state, &second = world.bodies[at(pair.b)].state;
     const double gap = contacts.least_gap(world, pair, first.pose(), second.pose());
-    const double way =
+    const double distance =
         dt * ((second.velocity - first.velocity).norm() + first.spin.norm() * world.model_of(pair.a).reach +
               second.spin.norm() * world.model_of(pair.b).reach);
-    if (gap - way > contacts.margin()) return;
+    if (gap - distance > contacts.margin()) return;
     const int low = std::min(root(a), root(b)), high = std::max(root(a), root(b));
     parent[at(high)] = low;
     if (high != low) {
@@ -98,18 +99,18 @@ std::vector<std::vector<int>> find_crowds(const world::World& world, Contacts& c
     else
       points[at(low)] += known;
   });
-  std::vector<std::vector<int>> crowds;
-  std::vector<int> crowd_of(count, -1);
+  std::vector<std::vector<int>> piles;
+  std::vector<int> pile_of(count, -1);
   for (int body = 0; body < static_cast<int>(count); ++body) {
     const auto first = at(root(body));
     if (event_work(arrivals[first], points[first]) <= most_work) continue;
-    if (crowd_of[first] < 0) {
-      crowd_of[first] = static_cast<int>(crowds.size());
-      crowds.emplace_back();
+    if (pile_of[first] < 0) {
+      pile_of[first] = static_cast<int>(piles.size());
+      piles.emplace_back();
     }
-    crowds[at(crowd_of[first])].push_back(body);
+    piles[at(pile_of[first])].push_back(body);
   }
-  return crowds;
+  return piles;
 }
 
 }  // namespace fc::resting

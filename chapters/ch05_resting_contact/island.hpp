@@ -48,9 +48,9 @@ class IslandFinder {
   IslandFinder(Contacts& contacts, std::size_t bodies);
   void begin(double now);
   // The island of a body that can be moved and is in none since begin(). Bodies that are not in contact: an island of
-  // one body without pairs. Sleeping bodies that it reaches belong to it. So do members of crowds (crowd_of[body] >= 0), but
+  // one body without pairs. Sleeping bodies that it reaches belong to it. So do members of piles (pile_of[body] >= 0), but
   // nobody is looked for from there.
-  Island grow(const world::World& world, int body, const std::vector<int>& crowd_of);
+  Island grow(const world::World& world, int body, const std::vector<int>& pile_of);
   bool is_in_island(int body) const { return stamp_[at(body)] >= first_; }
 
  private:
@@ -73,7 +73,7 @@ inline double event_work(int arrivals, int rank) {
 
 // Groups of bodies that are in contact, or may come into contact with each other within dt seconds from a frame's start on,
 // that would be more than `most_work`. Their boxes are in the schedule.
-std::vector<std::vector<int>> find_crowds(const world::World& world, Contacts& contacts, double dt,
-                                          double most_work);
+std::vector<std::vector<int>> find_piles(const world::World& world, Contacts& contacts, double dt,
+                                         double most_work);
 
 }  // namespace fc::resting

@@ -6,7 +6,7 @@
 
 #include "ch03_impulse_lcp/contact.hpp"
 #include "ch03_impulse_lcp/dantzig.hpp"
-#include "ch05_resting_contact/sweeps.hpp"
+#include "ch05_resting_contact/gauss_seidel.hpp"
 #include "common/scene.hpp"
 
 namespace fc::resting {
@@ -23,21 +23,22 @@ struct IslandResult {
 };
 
 // Finds impulses z >= 0 (N s), n, for contacts between bodies with
-//   w = J v+ + allowed >= 0,   z'w = 0,   v+ = v + M^-1 J' z,
-// and changes the bodies' velocities to v+: contact i may close in with at most allowed_i (m/s; negative: it
-// must part). z comes in as a guess. By Dantzig's method; where that fails, by sweeps, to 1e-3; by the chosen solver to its tolerance. Unless solved, velocities stay
-// as they are. What would throw bodies a hundred times as fast as anything was is no solution if a kinematic body does it: it
-// presses bodies out from between others, with all the force in the world.
+//   w = J v+ + approach_limits >= 0,   z'w = 0,   v+ = v + M^-1 J' z,
+// and changes the bodies' velocities to v+: contact i may close in with at most approach_limits[i] (m/s; negative: it must
+// part). z comes in as a guess. By Dantzig's method; where that fails, by sweeps, to 1e-3; by the chosen solver to its
+// tolerance. Unless solved, velocities stay as they are. What would throw bodies a hundred times as fast as anything was is no
+// solution if a kinematic body does it: it presses bodies out from between others, with all the force in the world.
 class IslandSolver {
  public:
   IslandResult solve(std::span<RigidBody> bodies, std::span<const lcp::Contact> contacts,
-                     std::span<const double> allowed, std::span<double> z, const IslandOptions& options);
+                     std::span<const double> approach_limits, std::span<double> z,
+                     const IslandOptions& options);
 
  private:
   void sweep(std::span<const RigidBody> bodies, std::span<const lcp::Contact> contacts,
-             std::span<const double> allowed, std::span<const double> z, lcp::LcpResult& result);
+             std::span<const double> approach_limits, std::span<const double> z, lcp::LcpResult& result);
 
-  Sweeps sweeps_;
+  GaussSeidel gauss_seidel_;
   lcp::DantzigSolver dantzig_;
 };
 

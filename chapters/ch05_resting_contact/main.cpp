@@ -51,7 +51,7 @@ void tell(const Scene& scene, const resting::Clash& clash, double frame) {
       stderr,
       "{}: this driven body goes into the one of {}, which does not give way either, at {:.6g} s; nothing "
       "stops it\n",
-      where(clash.driven), where(clash.other), frame + clash.time);
+      where(clash.kinematic), where(clash.other), frame + clash.time);
 }
 
 int run(const Scene& scene, const RunContext& context, Summary& summary) {
@@ -116,7 +116,7 @@ int main(int argc, char** argv) {
       "Moves rigid bodies that collide, rest, slide and stack, without friction. With the key `envelope`, "
       "bodies nearer than that are in contact and go by plans: proved paths that use no gap up, with impulses that act "
       "all along. Without it, everything is as in chapter 4. Bodies that meet in one frame so often that nobody could go "
-      "from one event to the next are a crowd: its contacts are solved to a residual that is told, two plans a frame, and "
+      "from one event to the next are a pile: its contacts are solved to a residual that is told, two plans a frame, and "
       "where paths cannot be proved they are shortened, which is told as `lost_impulse`.";
   chapter.example = "build/bin/ch05_resting_contact chapters/ch05_resting_contact/scenes/stack.yaml";
   chapter.explain = explain;

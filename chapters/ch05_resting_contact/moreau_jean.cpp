@@ -26,7 +26,7 @@ Quat turned(const Quat& orientation, const Vec3& by) {  // rad, world axes
 }  // namespace
 
 Facing::Facing(const world::World& world) {
-  for (const hulls::Model& model : world.models) facets_.push_back(build_facets(model.mesh));
+  for (const hulls::Model& model : world.models) face_lists_.push_back(build_face_list(model.mesh));
 }
 
 const Patch* Facing::find(const world::World& world, int a, int b, double far) {
@@ -45,8 +45,8 @@ const Patch* Facing::find(const world::World& world, int a, int b, double far) {
   place->second = nearest.normal;
   nearest.lower = ca::support_gap(core_a, core_b, pose, nearest.normal);
   nearest.point_b -= push;
-  find_patch({world.model_of(a), facets_[static_cast<std::size_t>(world.bodies[a].shape)]},
-             {world.model_of(b), facets_[static_cast<std::size_t>(world.bodies[b].shape)]}, pose, nearest,
+  find_patch({world.model_of(a), face_lists_[static_cast<std::size_t>(world.bodies[a].shape)]},
+             {world.model_of(b), face_lists_[static_cast<std::size_t>(world.bodies[b].shape)]}, pose, nearest,
              kSlack, far, patch_);
   return &patch_;
 }
@@ -56,7 +56,7 @@ double smallest_gap(Facing& facing, const world::World& world, double far) {
   const int count = static_cast<int>(world.bodies.size());
   for (int a = 0; a < count; ++a)
     for (int b = a + 1; b < count; ++b) {
-      if (!world.yields(a) && !world.yields(b)) continue;
+      if (!world.is_dynamic(a) && !world.is_dynamic(b)) continue;
       if (const Patch* patch = facing.find(world, a, b, far)) smallest = std::min(smallest, patch->gap);
     }
   return smallest;
@@ -71,7 +71,7 @@ void MoreauJean::find_contacts(const world::World& world) {
   const int count = static_cast<int>(bodies_.size());
   for (int a = 0; a < count; ++a)
     for (int b = a + 1; b < count; ++b) {
-      if (!world.yields(a) && !world.yields(b)) continue;
+      if (!world.is_dynamic(a) && !world.is_dynamic(b)) continue;
       const Patch* patch = facing_.find(world, a, b, 2 * fastest * dt_ + world.tolerance);
       if (patch == nullptr) continue;
       for (int i = 0; i < patch->count; ++i) {

@@ -26,7 +26,7 @@ class Facing {
   std::int64_t searches() const { return searches_; }
 
  private:
-  std::vector<Facets> facets_;
+  std::vector<FaceList> face_lists_;
   std::map<std::pair<int, int>, Vec3> normals_;
   Patch patch_;
   std::int64_t searches_ = 0;

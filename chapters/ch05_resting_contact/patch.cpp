@@ -38,11 +38,11 @@ struct Frame {
   Vec3 at(double x, double y, double height) const { return x * u + y * v + height * n; }
 };
 
-int best_face(const Facets& facets, const Vec3& direction) {
+int best_face(const FaceList& faces, const Vec3& direction) {
   int best = -1;
   double most = -2;
-  for (int f = 0; f < facets.size(); ++f) {
-    const double along = facets.normals[static_cast<std::size_t>(f)].dot(direction);
+  for (int f = 0; f < faces.size(); ++f) {
+    const double along = faces.normals[static_cast<std::size_t>(f)].dot(direction);
     if (along > most) {
       most = along;
       best = f;
@@ -67,7 +67,7 @@ void project(const hulls::Outline& outline, const Mat3& rotation, const Vec3& of
 void project(const PatchSide& side, int face, const Mat3& rotation, const Vec3& offset, const Frame& frame,
              bool reverse, Polygon& polygon) {
   const auto& vertices = side.model.mesh.vertices;
-  const hulls::Lists& lists = side.facets.corners;
+  const hulls::Lists& lists = side.faces.corners;
   const int first = face < 0 ? 0 : lists.start[static_cast<std::size_t>(face)];
   const int all =
       face < 0 ? static_cast<int>(vertices.size()) : lists.start[static_cast<std::size_t>(face) + 1] - first;
@@ -136,13 +136,13 @@ struct Facing {
         to_body(its_rotation.transpose()),
         offset(its_offset),
         core(its_side.model.leaf(0)),
-        face(best_face(its_side.facets, to_body * direction)) {
+        face(best_face(its_side.faces, to_body * direction)) {
     if (side.model.curved()) outline = hulls::outline_of(side.model, to_body * direction);
     if (outline.count > 1) face = outline.id;
   }
   Vec3 normal() const {  // unit, world, outward
     if (side.model.curved()) return rotation * outline.normal;
-    return rotation * side.facets.normals[static_cast<std::size_t>(face)];
+    return rotation * side.faces.normals[static_cast<std::size_t>(face)];
   }
   // Whether a plane can turn with the face. What is round rolls out of its plane.
   bool has_plane() const { return face >= 0 && (!side.model.curved() || outline.count > 2); }
@@ -263,7 +263,7 @@ void choose_plane(const Facing& a, const Facing& b, const ca::PairPose& pose, co
 
 }  // namespace
 
-Facets build_facets(const hulls::FeatureMesh& mesh) {
+FaceList build_face_list(const hulls::FeatureMesh& mesh) {
   // Triangles across a flat edge belong to one face.
   const int count = static_cast<int>(mesh.triangles.size());
   std::vector<int> parent(static_cast<std::size_t>(count));
@@ -278,7 +278,7 @@ Facets build_facets(const hulls::FeatureMesh& mesh) {
       parent[static_cast<std::size_t>(root(mesh.edge_triangles.items[static_cast<std::size_t>(k)]))] =
           root(mesh.edge_triangles.items[static_cast<std::size_t>(first)]);
   }
-  Facets facets;
+  FaceList faces;
   for (int face = 0; face < count; ++face) {
     if (root(face) != face) continue;
     std::vector<int> corners;
@@ -298,11 +298,11 @@ Facets build_facets(const hulls::FeatureMesh& mesh) {
       return std::atan2(frame.v.dot(from), frame.u.dot(from));
     };
     std::sort(corners.begin(), corners.end(), [&](int v, int w) { return angle(v) < angle(w); });
-    facets.normals.push_back(normal);
-    facets.corners.items.insert(facets.corners.items.end(), corners.begin(), corners.end());
-    facets.corners.start.push_back(static_cast<int>(facets.corners.items.size()));
+    faces.normals.push_back(normal);
+    faces.corners.items.insert(faces.corners.items.end(), corners.begin(), corners.end());
+    faces.corners.start.push_back(static_cast<int>(faces.corners.items.size()));
   }
-  return facets;
+  return faces;
 }
 
 void find_patch(const PatchSide& side_a, const PatchSide& side_b, const ca::PairPose& pose,

@@ -11,14 +11,14 @@
 namespace fc::resting {
 
 // The faces of a convex shape as polygons; a segment and a point have none.
-struct Facets {
+struct FaceList {
   hulls::Lists corners;       // vertices of each face, anticlockwise as seen from outside
   std::vector<Vec3> normals;  // unit, outward, shape axes
 
   int size() const { return static_cast<int>(normals.size()); }
 };
 
-Facets build_facets(const hulls::FeatureMesh& mesh);
+FaceList build_face_list(const hulls::FeatureMesh& mesh);
 
 struct PatchPoint {
   static constexpr std::uint64_t kBroughtTogether = 4;  // key of a point where the two do not face each other
@@ -40,7 +40,7 @@ struct Patch {
 // One body of the pair.
 struct PatchSide {
   const hulls::Model& model;
-  const Facets& facets;
+  const FaceList& faces;
 };
 
 // The patch at a pose. The plane is the one that `nearest` found, or a face's, if that parts the bodies as

@@ -23,13 +23,13 @@ struct Moving {
   Vec3 position, velocity, acceleration, spin;
   double spin_rate, reach;
 
-  Moving(const Track& track, double time, const Pose& pose)
+  Moving(const Path& path, double time, const Pose& pose)
       : position(pose.position),
-        velocity(track.velocity + time * track.acceleration),
-        acceleration(track.acceleration),
-        spin(track.spin),
-        spin_rate(track.spin_rate),
-        reach(track.reach) {}
+        velocity(path.velocity + time * path.acceleration),
+        acceleration(path.acceleration),
+        spin(path.spin),
+        spin_rate(path.spin_rate),
+        reach(path.reach) {}
 };
 
 // How much a point of `body` is accelerated at most, as seen by one who stands on `viewer` and turns with it
@@ -58,7 +58,7 @@ double least_between(double start, double end, double sag) {
 // ANCHOR_END: least
 
 // The gap that planes prove between two times; m.
-double least_gap(const ca::Convex& core_a, const ca::Convex& core_b, const Track& a, const Track& b,
+double least_gap(const ca::Convex& core_a, const ca::Convex& core_b, const Path& a, const Path& b,
                  const PlaneAt& from, const PlaneAt& to, double enough) {
   const double dt = to.time - from.time, share = dt * dt / 8;
   const Moving moving_a(a, from.time, from.a), moving_b(b, from.time, from.b);
@@ -89,7 +89,7 @@ double least_gap(const ca::Convex& core_a, const ca::Convex& core_b, const Track
 
 // Whether planes prove it; nothing if there is none to begin with.
 std::optional<PathVerdict> by_planes(const world::World& world, const Contacts& contacts, PairContacts& pair,
-                                     const Track& a, const Track& b, double dt, const PathOptions& options) {
+                                     const Path& a, const Path& b, double dt, const PathOptions& options) {
   const ca::Convex core_a = world.model_of(pair.a).leaf(0), core_b = world.model_of(pair.b).leaf(0);
   const double need = options.need;
   const auto best_at = [&](double time) {
@@ -122,48 +122,47 @@ std::optional<PathVerdict> by_planes(const world::World& world, const Contacts& 
 
 }  // namespace
 
-Track straight_track(const RigidBody& start, const Vec3& velocity, const Vec3& spin, double reach,
-                     double dt) {
-  Track track;
-  track.start = start.pose();
-  track.reach = reach;
-  track.velocity = velocity;
-  track.spin = spin;
-  track.spin_rate = spin.norm();
-  track.moves = !velocity.isZero(0) || track.spin_rate > 0;
+Path straight_path(const RigidBody& start, const Vec3& velocity, const Vec3& spin, double reach, double dt) {
+  Path path;
+  path.start = start.pose();
+  path.reach = reach;
+  path.velocity = velocity;
+  path.spin = spin;
+  path.spin_rate = spin.norm();
+  path.moves = !velocity.isZero(0) || path.spin_rate > 0;
   RigidBody moving = start;
   moving.velocity = velocity;
   moving.spin = spin;
-  track.motion = ca::Motion(moving);
-  track.end = track.moves ? track.motion.pose_at(dt) : track.start;
-  return track;
+  path.motion = ca::Motion(moving);
+  path.end = path.moves ? path.motion.pose_at(dt) : path.start;
+  return path;
 }
 
-Track track_of(const world::World& world, int body, double now, double dt) {
-  Track track;
-  track.reach = world.shapes[world.bodies[body].shape].reach;
-  track.moves = !world.stays(body);
-  track.motion = world.motion(body, now);
-  track.start = track.end = {track.motion.rotation, track.motion.position};
-  if (!track.moves) return track;
-  track.end = track.motion.pose_at(dt);
-  track.velocity = track.motion.velocity;
-  track.acceleration = track.motion.acceleration;
-  track.spin = track.motion.spin;
-  track.spin_rate = track.motion.spin_bound();
-  track.steady = track.motion.steady();
-  return track;
+Path path_of(const world::World& world, int body, double now, double dt) {
+  Path path;
+  path.reach = world.shapes[world.bodies[body].shape].reach;
+  path.moves = !world.is_stationary(body);
+  path.motion = world.motion(body, now);
+  path.start = path.end = {path.motion.rotation, path.motion.position};
+  if (!path.moves) return path;
+  path.end = path.motion.pose_at(dt);
+  path.velocity = path.motion.velocity;
+  path.acceleration = path.motion.acceleration;
+  path.spin = path.motion.spin;
+  path.spin_rate = path.motion.spin_bound();
+  path.steady = path.motion.steady();
+  return path;
 }
 
-PathVerdict check_path(const world::World& world, const Contacts& contacts, PairContacts& pair,
-                       const Track& a, const Track& b, double dt, const PathOptions& options) {
+PathVerdict check_path(const world::World& world, const Contacts& contacts, PairContacts& pair, const Path& a,
+                       const Path& b, double dt, const PathOptions& options) {
   const double need = options.need;
   const bool steady = a.steady && b.steady;
   if (steady) {
-    const double way =
+    const double distance =
         dt * ((b.velocity - a.velocity).norm() + 0.5 * dt * (b.acceleration - a.acceleration).norm() +
               a.spin_rate * a.reach + b.spin_rate * b.reach);
-    if (pair.gap - way >= need) return {true, dt, pair.gap - way - need};
+    if (pair.gap - distance >= need) return {true, dt, pair.gap - distance - need};
   }
   if (steady && pair.known && Contacts::convex(world, pair)) {
     if (!pair.axis_known) pair.axis_gap = contacts.axis_gap(world, pair, a.start, b.start);

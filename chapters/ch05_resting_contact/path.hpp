@@ -1,12 +1,12 @@
-// Whether two bodies keep apart on their way through a frame.
+// Whether two bodies keep apart on their paths through a frame.
 #pragma once
 
 #include "ch05_resting_contact/contacts.hpp"
 
 namespace fc::resting {
 
-// A body on its way through a frame: the poses at both ends, and what its motion is like between them.
-struct Track {
+// A body's path through a frame: the poses at both ends, and what its motion is like between them.
+struct Path {
   Pose start, end;
   Vec3 velocity = Vec3::Zero(), acceleration = Vec3::Zero(), spin = Vec3::Zero();  // m/s, m/s^2, rad/s
   double spin_rate = 0, reach = 0;                                                 // rad/s, m
@@ -16,9 +16,9 @@ struct Track {
 };
 
 // A body that goes straight on from a pose, with constant spin, for dt seconds.
-Track straight_track(const RigidBody& start, const Vec3& velocity, const Vec3& spin, double reach, double dt);
+Path straight_path(const RigidBody& start, const Vec3& velocity, const Vec3& spin, double reach, double dt);
 // A body of the world as it moves from `now` on (s in the frame).
-Track track_of(const world::World& world, int body, double now, double dt);
+Path path_of(const world::World& world, int body, double now, double dt);
 
 struct PathVerdict {
   bool clear = false;
@@ -37,13 +37,13 @@ struct PathOptions {
 
 // Whether the gap stays at least `need` for dt seconds; proved, or found to be reached. In this order:
 //
-//   1. by the way     gap - dt |largest relative velocity of two points| >= need;
+//   1. by speed       gap - dt |largest relative velocity of two points| >= need;
 //   2. by planes      (convex pairs) that go with a body, or turn evenly from the best at the start to the best at the end: if
 //                     the gap along one is s_0 and s_1 at the ends of an interval dt, then at the part x of it the gap is at
-//                     least (1 - x) s_0 + x s_1 - k dt^2 x (1 - x) / 2, where k bounds how much the way of any point is bent,
+//                     least (1 - x) s_0 + x s_1 - k dt^2 x (1 - x) / 2, where k bounds how much the path of any point is bent,
 //                     as seen by who goes with the plane; intervals are halved where that is too little;
 //   3. by conservative advancement (chapter 2).
-PathVerdict check_path(const world::World& world, const Contacts& contacts, PairContacts& pair,
-                       const Track& a, const Track& b, double dt, const PathOptions& options);
+PathVerdict check_path(const world::World& world, const Contacts& contacts, PairContacts& pair, const Path& a,
+                       const Path& b, double dt, const PathOptions& options);
 
 }  // namespace fc::resting

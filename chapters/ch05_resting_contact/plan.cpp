@@ -58,16 +58,16 @@ double wanted_gap(double gap, double margin) {
   return std::max(gap + kCorrect * (rest - gap), kLeastGap * margin);
 }
 
-// ANCHOR: course_of
-world::Plan course_of(const Member& member, const Twist& path, const Twist& end, double length) {
-  world::Plan course;
-  course.linear = path.linear;
-  course.angular = path.angular;
-  course.push = (end.linear - member.state.velocity) / length;
-  course.turn = (end.angular - member.state.spin) / length;
-  return course;
+// ANCHOR: planned_motion
+world::Plan planned_motion(const Member& member, const Twist& path, const Twist& end, double length) {
+  world::Plan motion;
+  motion.linear = path.linear;
+  motion.angular = path.angular;
+  motion.push = (end.linear - member.state.velocity) / length;
+  motion.turn = (end.angular - member.state.spin) / length;
+  return motion;
 }
-// ANCHOR_END: course_of
+// ANCHOR_END: planned_motion
 
 PlanMaker::Result PlanMaker::make(const world::World& world, const Island& island, double now, double length,
                                   const PlanOptions& options) {
@@ -140,10 +140,11 @@ void PlanMaker::add_row(const world::World& world, int candidate, const ContactP
   rows_.push_back(row);
 }
 
-// From impulses_, with allowed_; bodies get the velocities.
+// From impulses_, with approach_limits_; bodies get the velocities.
 bool PlanMaker::solve(std::vector<RigidBody>& bodies) {
   if (rows_.empty()) return true;
-  const IslandResult result = solver_.solve(bodies, contact_list_, allowed_, impulses_, options_.solver);
+  const IslandResult result =
+      solver_.solve(bodies, contact_list_, approach_limits_, impulses_, options_.solver);
   residual_ = std::max(residual_, result.residual);
   ++solves_;
   if (!result.solved) {
@@ -158,11 +159,11 @@ bool PlanMaker::solve() {
   const double length = courses_.length();
   fast_ = courses_.with(courses_.drift);
   contact_list_.clear();
-  allowed_.clear();
+  approach_limits_.clear();
   impulses_.clear();
   for (const Row& row : rows_) {
     contact_list_.push_back(row.contact);
-    allowed_.push_back(row.allowed(length));
+    approach_limits_.push_back(row.approach_limit(length));
     impulses_.push_back(row.impulse);
   }
   if (!solve(fast_)) return false;
@@ -172,9 +173,10 @@ bool PlanMaker::solve() {
   bool short_of = false;
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     const Row& row = rows_[r];
-    allowed_[r] = (row.gap + row.bend - row.want) / length;
+    approach_limits_[r] = (row.gap + row.bend - row.want) / length;
     impulses_[r] = row.correction;
-    if (lcp::contact_velocity(path_, row.contact) + allowed_[r] < -kClosed * contacts_.margin() / length)
+    if (lcp::contact_velocity(path_, row.contact) + approach_limits_[r] <
+        -kClosed * contacts_.margin() / length)
       short_of = true;
   }
   if (!corrects_ || !short_of ||
@@ -188,12 +190,12 @@ bool PlanMaker::solve() {
 
 // The contact's velocity (m/s) at the end of the paths, if bodies have these velocities.
 double PlanMaker::end_speed(const Row& row, const std::vector<RigidBody>& bodies) const {
-  const Track &track_a = courses_.tracks[at(row.contact.body_a)],
-              &track_b = courses_.tracks[at(row.contact.body_b)];
+  const Path &path_a = courses_.paths[at(row.contact.body_a)],
+             &path_b = courses_.paths[at(row.contact.body_b)];
   const RigidBody &a = bodies[at(row.contact.body_a)], &b = bodies[at(row.contact.body_b)];
-  const Vec3 arm_a = row.point.on_a(track_a.end, track_b.end) - track_a.end.position,
-             arm_b = row.point.on_b(track_a.end, track_b.end) - track_b.end.position;
-  return row.point.normal_at(track_a.end, track_b.end)
+  const Vec3 arm_a = row.point.on_a(path_a.end, path_b.end) - path_a.end.position,
+             arm_b = row.point.on_b(path_a.end, path_b.end) - path_b.end.position;
+  return row.point.normal_at(path_a.end, path_b.end)
       .dot(b.velocity + b.spin.cross(arm_b) - a.velocity - a.spin.cross(arm_a));
 }
 
@@ -207,7 +209,7 @@ PlanMaker::Result PlanMaker::close_ends() {
       courses_.go(static_cast<int>(i), {path_[i].velocity, path_[i].spin});
     worst = 0;
     for (Row& row : rows_) {
-      const Track &a = courses_.tracks[at(row.contact.body_a)], &b = courses_.tracks[at(row.contact.body_b)];
+      const Path &a = courses_.paths[at(row.contact.body_a)], &b = courses_.paths[at(row.contact.body_b)];
       row.end_gap = row.point.gap_at(a.end, b.end);
       if (row.end_gap >= contacts_.margin() && !(row.impulse > 0 || row.correction > 0)) continue;
       const double bend =
@@ -240,7 +242,7 @@ bool PlanMaker::gains() const {
     if (courses_.last[i].angular.isZero(0)) continue;
     free.spin = courses_.members[i].state.spin;
     fast.spin += courses_.last[i].angular;
-    fast.orientation = Quat(courses_.tracks[i].end.rotation);
+    fast.orientation = Quat(courses_.paths[i].end.rotation);
     end_gain += fast.kinetic_energy() - free.kinetic_energy();
   }
   return std::max(gain, end_gain) > kMostBorrowed * size;
@@ -248,7 +250,7 @@ bool PlanMaker::gains() const {
 
 // When (s from the start) a point of a pair has come down to the rest gap, if its bodies go as on these paths.
 double PlanMaker::arrival(const Row& row) const {
-  const Track &a = courses_.tracks[at(row.contact.body_a)], &b = courses_.tracks[at(row.contact.body_b)];
+  const Path &a = courses_.paths[at(row.contact.body_a)], &b = courses_.paths[at(row.contact.body_b)];
   double early = 0, late = courses_.length();
   for (int i = 0; i < kHalvings; ++i) {
     const double middle = 0.5 * (early + late);
@@ -260,10 +262,10 @@ double PlanMaker::arrival(const Row& row) const {
 }
 
 // The points that an unproved pair has at the end of its path become rows; whether there are new ones. One that comes in fast
-// there is an event instead, but for the next facets of a mesh that is in contact.
+// there is an event instead, but for the next faces of a mesh that is in contact.
 bool PlanMaker::add_rows_of(const world::World& world, int candidate) {
   const Candidate pair = courses_.candidates[at(candidate)];
-  const Track &a = courses_.tracks[at(pair.a)], &b = courses_.tracks[at(pair.b)];
+  const Path &a = courses_.paths[at(pair.a)], &b = courses_.paths[at(pair.b)];
   const bool may_meet = !pair.in_contact || Contacts::convex(world, *pair.contacts);
   double gap = 0;
   bool any = false;
@@ -309,14 +311,14 @@ std::vector<RigidBody> PlanMaker::without_arrivals(std::vector<double>& early) {
   std::vector<RigidBody> bodies = courses_.with(courses_.drift);
   std::vector<std::size_t> lasting;
   contact_list_.clear();
-  allowed_.clear();
+  approach_limits_.clear();
   impulses_.clear();
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     early[r] = 0;
     if (rows_[r].arrives) continue;
     lasting.push_back(r);
     contact_list_.push_back(rows_[r].contact);
-    allowed_.push_back(rows_[r].allowed(courses_.length()));
+    approach_limits_.push_back(rows_[r].approach_limit(courses_.length()));
     impulses_.push_back(rows_[r].impulse);
   }
   if (lasting.empty() || !solve(bodies)) return bodies;
@@ -350,8 +352,8 @@ Planned PlanMaker::take() {
     told.arrives = row.arrives;
     if (row.arrives) {
       told.contact.gap = row.end_gap;
-      told.contact.point = row.point.middle(courses_.tracks[at(row.contact.body_a)].end,
-                                            courses_.tracks[at(row.contact.body_b)].end);
+      told.contact.point = row.point.middle(courses_.paths[at(row.contact.body_a)].end,
+                                            courses_.paths[at(row.contact.body_b)].end);
     }
     told.contact.body_a = courses_.members[at(row.contact.body_a)].number;
     told.contact.body_b = courses_.members[at(row.contact.body_b)].number;
@@ -360,13 +362,13 @@ Planned PlanMaker::take() {
   for (std::size_t i = 0; i < courses_.members.size(); ++i) {
     const RigidBody &path = path_[i], &fast = fast_[i], &end = ends[i];
     const double moved = length * ((path.velocity - fast.velocity).norm() +
-                                   courses_.tracks[i].reach * (path.spin - fast.spin).norm());
+                                   courses_.paths[i].reach * (path.spin - fast.spin).norm());
     result.correction = std::max(result.correction, moved);
     if (!goes[i] || !courses_.members[i].dynamic) continue;
     const Twist last = courses_.last[i];
     result.bodies.push_back(courses_.members[i].number);
-    result.courses.push_back(course_of(courses_.members[i], {path.velocity, path.spin},
-                                       {end.velocity + last.linear, end.spin + last.angular}, length));
+    result.motions.push_back(planned_motion(courses_.members[i], {path.velocity, path.spin},
+                                            {end.velocity + last.linear, end.spin + last.angular}, length));
     result.arrivals.push_back({fast.velocity - end.velocity, fast.spin - end.spin});
   }
   return result;

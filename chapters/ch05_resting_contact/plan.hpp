@@ -21,7 +21,7 @@ struct PlannedRow {
 // nothing of what acts at its end: what arrives there, and what that causes.
 struct Planned {
   std::vector<int> bodies;  // by their numbers in the world
-  std::vector<world::Plan> courses;
+  std::vector<world::Plan> motions;
   std::vector<Twist> arrivals;                // what velocities get at the plan's end
   int pushing = 0;                            // contacts with an impulse,
   std::vector<PlannedRow> rows;               // and what they do
@@ -34,8 +34,8 @@ struct PlanOptions {
   double rest_speed = 0;  // m/s: what comes in faster ends the plan when it is there
 };
 
-// A course of which velocities begin as the member's and end as `end`, without what it gets on arrival.
-world::Plan course_of(const Member& member, const Twist& path, const Twist& end, double length);
+// A motion of which velocities begin as the member's and end as `end`, without what it gets on arrival.
+world::Plan planned_motion(const Member& member, const Twist& path, const Twist& end, double length);
 
 // The gap (m) that a contact with this gap should have at a plan's end, where h is the margin: nearer to h / 2.
 double wanted_gap(double gap, double margin);
@@ -82,7 +82,9 @@ class PlanMaker {
         infinity();  // m/s: velocities are made to part by no more, since no more is taken back at the end
     bool arrives = false;  // not in contact now: what the row does, it does at the plan's end
 
-    double allowed(double length) const { return std::max((gap + bend - keep) / length, -most_push); }  // m/s
+    double approach_limit(double length) const {  // m/s
+      return std::max((gap + bend - keep) / length, -most_push);
+    }
   };
   void add_row(const world::World& world, int candidate, const ContactPoint& point, bool arrives);
   bool solve();
@@ -102,7 +104,7 @@ class PlanMaker {
   std::vector<RigidBody> fast_, path_;  // of each member, with velocities w, and y
   std::vector<Row> rows_;
   std::vector<lcp::Contact> contact_list_;
-  std::vector<double> allowed_, impulses_;
+  std::vector<double> approach_limits_, impulses_;
   double residual_ = 0, meeting_ = 0;
   bool corrects_ = true;
   lcp::Status status_ = lcp::Status::limit;

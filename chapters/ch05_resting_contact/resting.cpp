@@ -16,9 +16,9 @@ constexpr int kMostBounces = 64;
 // A plan is halved where its paths are not clear, down to this part of a frame.
 constexpr double kShortest = 1.0 / 4096;
 
-// So are plans of crowds with few rows, where paths would have to be shortened, down to this part.
+// So are plans of piles with few rows, where paths would have to be shortened, down to this part.
 constexpr int kManyRows = 100;
-constexpr double kShortestOfCrowd = 1.0 / 512;
+constexpr double kShortestOfPile = 1.0 / 512;
 
 // A plan that would leave less than this part of what is left of the frame takes it all.
 constexpr double kNearlyAll = 0.75;
@@ -41,8 +41,8 @@ double energy_of(const world::World& world, const RigidBody& state) {  // J
 
 // It stands still until the frame's end.
 void stop(world::World& world, int kinematic, double now, double dt, world::StepReport& report) {
-  world.carry(kinematic, now, now);
-  world.bodies[static_cast<std::size_t>(kinematic)].held = true;
+  world.advance_to(kinematic, now, now);
+  world.bodies[static_cast<std::size_t>(kinematic)].frozen = true;
   report.lost_time = std::max(report.lost_time, dt - now);
 }
 
@@ -52,7 +52,7 @@ Resting::Resting(const Scene& scene, world::World& world, double dt, const RestO
     : contacts_(world, envelope_of(scene, world, dt)),
       islands_(contacts_, world.bodies.size()),
       maker_(contacts_),
-      crowd_planner_(contacts_),
+      pile_planner_(contacts_),
       options_(options),
       frame_(dt),
       dt_(dt),
@@ -63,9 +63,9 @@ Resting::Resting(const Scene& scene, world::World& world, double dt, const RestO
   const SolverSpec& solver = world.solver;
   if (solver.method != usual.method || solver.limit != usual.limit || solver.tolerance != usual.tolerance) {
     options_.solver.chosen = solver;
-    options_.most_work = std::numeric_limits<double>::infinity();  // crowds are solved by sweeps of their own
+    options_.most_work = std::numeric_limits<double>::infinity();  // piles are solved by sweeps of their own
   }
-  world.reserve = 0.5 * envelope();
+  world.rest_gap = 0.5 * envelope();
 }
 
 RestReport Resting::step(world::World& world, const world::Listeners& listeners) {
@@ -93,10 +93,10 @@ std::vector<int> Resting::begin(world::World& world, double dt, world::StepRepor
   }
   plans_.clear();
   free_plans_.clear();
-  crowds_.begin(world.bodies.size(), find_crowds(world, contacts_, dt, options_.most_work));
+  piles_.begin(world.bodies.size(), find_piles(world, contacts_, dt, options_.most_work));
   Instant instant{world, 0, report, listeners};
   for (int body = 0; body < static_cast<int>(world.bodies.size()); ++body)
-    if (world.yields(body) && !world.bodies[at(body)].asleep) instant.bodies.push_back(body);
+    if (world.is_dynamic(body) && !world.bodies[at(body)].asleep) instant.bodies.push_back(body);
   return go_on(std::move(instant));
 }
 
@@ -121,34 +121,34 @@ std::vector<int> Resting::meet(world::World& world, int a, int b, double now, wo
   Instant instant{world, now, report, listeners};
   for (const int body : {a, b}) {
     ++meetings_[at(body)];
-    if (world.yields(body)) instant.bodies.push_back(body);
+    if (world.is_dynamic(body)) instant.bodies.push_back(body);
   }
-  const auto is_crowded = [&](int body) { return crowds_.of(body) != nullptr; };
-  if (std::any_of(instant.bodies.begin(), instant.bodies.end(), is_crowded)) crowds_.unite(instant.bodies);
+  const auto is_in_pile = [&](int body) { return piles_.of(body) != nullptr; };
+  if (std::any_of(instant.bodies.begin(), instant.bodies.end(), is_in_pile)) piles_.unite(instant.bodies);
   return go_on(std::move(instant));
 }
 
 // These bodies, and all that they are in contact with, directly or over others.
 std::vector<int> Resting::go_on(Instant instant) {
   islands_.begin(instant.now);
-  crowds_.begin_instant();
+  piles_.begin_instant();
   for (std::size_t i = 0; i < instant.bodies.size(); ++i) {  // the list grows
     const int body = instant.bodies[i];
-    if (crowds_.of(body) == nullptr) {
+    if (piles_.of(body) == nullptr) {
       if (islands_.is_in_island(body)) continue;
-      Island island = islands_.grow(instant.world, body, crowds_.crowd_of());
-      join_crowd(island, event_work(0, island.rank()) > options_.most_work);
-      if (crowds_.of(body) == nullptr) go_on(instant, island);
+      Island island = islands_.grow(instant.world, body, piles_.pile_of());
+      join_pile(island, event_work(0, island.rank()) > options_.most_work);
+      if (piles_.of(body) == nullptr) go_on(instant, island);
     }
-    CrowdList::Crowd* crowd = crowds_.of(body);
-    if (crowd != nullptr && !crowd->done) go_on(instant, *crowd);
+    PileList::Pile* pile = piles_.of(body);
+    if (pile != nullptr && !pile->done) go_on(instant, *pile);
   }
   if (instant.now > 0) report_.correction_energy += std::max(0.0, instant.gained);
   if (instant.now >= dt_) instant.changed.clear();  // the frame is over
   return std::move(instant.changed);
 }
 
-// Plans end, the instant's impact law acts, and new plans begin; an island that cannot be followed becomes a crowd.
+// Plans end, the instant's impact law acts, and new plans begin; an island that cannot be followed becomes a pile.
 void Resting::go_on(Instant& instant, Island& island) {
   const double work = instant.report.kinematic_work, before = stand(instant, island.members);
   wake(instant.world, island.members, instant.report);
@@ -156,19 +156,19 @@ void Resting::go_on(Instant& instant, Island& island) {
   for (const IslandPair& pair : island.pairs)
     report_.smallest_gap = std::min(report_.smallest_gap, pair.contacts->gap);
   const bool solved = island.pairs.empty() || resolve(instant, island);
-  set_courses(instant, island.members, before, work);
+  set_motions(instant, island.members, before, work);
   const bool goes = instant.now >= dt_ || island.pairs.empty() || (solved && plan(instant, island));
-  if (!goes) join_crowd(island, true);
+  if (!goes) join_pile(island, true);
 }
 
-// All stand where they are now; the plans that moved them end. Returns the energy (J) with which they began their courses.
+// All stand where they are now; the plans that moved them end. Returns the energy (J) with which they began their motions.
 double Resting::stand(Instant& instant, std::span<Member> members) {
   double energy = 0;
   for (Member& member : members) {
     if (!member.dynamic) continue;
     world::Body& body = instant.world.bodies[at(member.number)];
     if (body.plan.number >= 0) end_plan(instant, body.plan.number);
-    instant.world.carry(member.number, instant.now, instant.now);
+    instant.world.advance_to(member.number, instant.now, instant.now);
     member.state = body.state;
     instant.changed.push_back(member.number);
     energy += energy_[at(member.number)];
@@ -176,27 +176,27 @@ double Resting::stand(Instant& instant, std::span<Member> members) {
   return energy;
 }
 
-void Resting::set_courses(Instant& instant, std::span<const Member> members, double before, double work) {
+void Resting::set_motions(Instant& instant, std::span<const Member> members, double before, double work) {
   double gained = work - instant.report.kinematic_work - before;
   for (const Member& member : members) {
     if (!member.dynamic) continue;
-    instant.world.set_course(member.number, member.state, instant.now);
+    instant.world.set_motion(member.number, member.state, instant.now);
     energy_[at(member.number)] = energy_of(instant.world, member.state);
     gained += energy_[at(member.number)];
   }
   instant.gained += gained;
 }
 
-// An island that a crowd has got into belongs to it; else it becomes one if it `must`, or if it has events without end.
-void Resting::join_crowd(const Island& island, bool must) {
+// An island that a pile has got into belongs to it; else it becomes one if it `must`, or if it has events without end.
+void Resting::join_pile(const Island& island, bool must) {
   std::vector<int> bodies;
   for (const Member& member : island.members) {
     if (!member.dynamic) continue;
     bodies.push_back(member.number);
     must =
-        must || crowds_.of(member.number) != nullptr || meetings_[at(member.number)] > options_.most_meetings;
+        must || piles_.of(member.number) != nullptr || meetings_[at(member.number)] > options_.most_meetings;
   }
-  if (must) crowds_.unite(bodies);
+  if (must) piles_.unite(bodies);
 }
 
 // Its bodies stand where they are now, with the velocities that they have; what its rows did until now is told.
@@ -207,7 +207,7 @@ void Resting::end_plan(Instant& instant, int number) {
   for (std::size_t i = 0; i < plan.what.bodies.size(); ++i) {
     const int member = plan.what.bodies[i];
     world::Body& body = instant.world.bodies[at(member)];
-    instant.world.carry(member, instant.now, instant.now);
+    instant.world.advance_to(member, instant.now, instant.now);
     body.plan = {};
     if (whole) {
       body.state.velocity += plan.what.arrivals[i].linear;
@@ -268,7 +268,7 @@ bool Resting::resolve(Instant& instant, Island& island) {
   }
   if (result.impact && instant.listeners.instant) {
     for (const Member& member : island.members)
-      if (member.dynamic) instant.world.set_course(member.number, member.state, instant.now);
+      if (member.dynamic) instant.world.set_motion(member.number, member.state, instant.now);
     instant.listeners.instant(instant.world, instant.now);
   }
   return true;
@@ -304,52 +304,52 @@ bool Resting::plan(Instant& instant, Island& island) {
   return true;
 }
 
-// A crowd has no impacts of its own, only plans: two in a frame; and more, if it is so small that shorter plans cost less than
+// A pile has no impacts of its own, only plans: two in a frame; and more, if it is so small that shorter plans cost less than
 // paths that are shortened.
-void Resting::go_on(Instant& instant, CrowdList::Crowd& crowd) {
-  crowd.done = true;
+void Resting::go_on(Instant& instant, PileList::Pile& pile) {
+  pile.done = true;
   std::vector<Member> members;
-  for (const int body : crowd.bodies) members.push_back({body, {}, true});
+  for (const int body : pile.bodies) members.push_back({body, {}, true});
   const double work = instant.report.kinematic_work, before = stand(instant, members);
   wake(instant.world, members, instant.report);
-  set_courses(instant, members, before, work);
+  set_motions(instant, members, before, work);
   if (instant.now >= dt_) return;
   const double half = instant.now < (0.5 - kShortest) * dt_ ? 0.5 * dt_ : dt_, left = half - instant.now;
-  CrowdOptions options;
+  PileOptions options;
   options.frame = dt_;
   options.sweeps = options_.sweeps;
   options.visits = options_.visits;
   options.told = static_cast<bool>(instant.listeners.impact);
   Planned planned;
-  double length = crowd.length > kNearlyAll * left ? left : crowd.length;
+  double length = pile.length > kNearlyAll * left ? left : pile.length;
   for (bool stopped = false;;) {
-    planned = crowd_planner_.make(instant.world, members, instant.now, length, options);
-    report_.checked += crowd_planner_.checked();
-    report_.sweeps += crowd_planner_.sweeps();
-    const bool blocked = !crowd_planner_.blocked().empty() && !stopped;
-    const bool is_small = blocked || crowd_planner_.rows() <= kManyRows;
-    const bool is_short = crowd_planner_.shortened() > 0 && !crowd.jammed;
-    if (is_small && (is_short || crowd_planner_.gains()) &&
-        length > (blocked ? kShortest : kShortestOfCrowd) * dt_) {
+    planned = pile_planner_.make(instant.world, members, instant.now, length, options);
+    report_.checked += pile_planner_.checked();
+    report_.sweeps += pile_planner_.sweeps();
+    const bool blocked = !pile_planner_.blocked().empty() && !stopped;
+    const bool is_small = blocked || pile_planner_.rows() <= kManyRows;
+    const bool is_short = pile_planner_.shortened() > 0 && !pile.jammed;
+    if (is_small && (is_short || pile_planner_.gains()) &&
+        length > (blocked ? kShortest : kShortestOfPile) * dt_) {
       length *= 0.5;
     } else if (blocked) {
-      for (const int body : crowd_planner_.blocked())
+      for (const int body : pile_planner_.blocked())
         stop(instant.world, body, instant.now, dt_, instant.report);
       stopped = true;
     } else if (is_short && stopped) {
-      crowd.jammed = true;
+      pile.jammed = true;
       length = left;
     } else {
       break;
     }
   }
-  crowd.length = 2 * length;
-  report_.shortened += crowd_planner_.shortened();
-  report_.lost_impulse += crowd_planner_.lost_impulse();
-  report_.largest_island = std::max(report_.largest_island, crowd_planner_.rows());
-  report_.smallest_gap = std::min(report_.smallest_gap, crowd_planner_.smallest_gap());
-  instant.report.lcp_residual = std::max(instant.report.lcp_residual, crowd_planner_.residual());
-  instant.report.contacts += crowd_planner_.rows();
+  pile.length = 2 * length;
+  report_.shortened += pile_planner_.shortened();
+  report_.lost_impulse += pile_planner_.lost_impulse();
+  report_.largest_island = std::max(report_.largest_island, pile_planner_.rows());
+  report_.smallest_gap = std::min(report_.smallest_gap, pile_planner_.smallest_gap());
+  instant.report.lcp_residual = std::max(instant.report.lcp_residual, pile_planner_.residual());
+  instant.report.contacts += pile_planner_.rows();
   ++instant.report.solves;
   start(instant, std::move(planned), length == left ? half : instant.now + length);
 }
@@ -368,7 +368,7 @@ void Resting::start(Instant& instant, Planned&& planned, double end) {
   }
   for (std::size_t i = 0; i < planned.bodies.size(); ++i) {
     world::Body& body = instant.world.bodies[at(planned.bodies[i])];
-    body.plan = planned.courses[i];
+    body.plan = planned.motions[i];
     body.plan.number = number;
     const double path = dt_ * (body.plan.linear.norm() +
                                instant.world.model_of(planned.bodies[i]).reach * body.plan.angular.norm());

@@ -3,11 +3,11 @@
 
 #include <limits>
 
-#include "ch05_resting_contact/crowd.hpp"
-#include "ch05_resting_contact/crowd_list.hpp"
-#include "ch05_resting_contact/driven.hpp"
 #include "ch05_resting_contact/envelope.hpp"
 #include "ch05_resting_contact/impact_law.hpp"
+#include "ch05_resting_contact/kinematic_watch.hpp"
+#include "ch05_resting_contact/pile.hpp"
+#include "ch05_resting_contact/pile_list.hpp"
 #include "ch05_resting_contact/rest_records.hpp"
 
 namespace fc::resting {
@@ -21,27 +21,27 @@ struct RestReport {
   std::int64_t checked = 0;                                       // paths of pairs that were to be proved
   double smallest_gap = std::numeric_limits<double>::infinity();  // m, of bodies in contact, certified
   int largest_island = 0;                                         // contact points
-  int sweeps = 0;                                                 // of Gauss-Seidel, in crowds
+  int sweeps = 0;                                                 // of Gauss-Seidel, in piles
   double correction = 0;  // m, the largest that a body's point was moved to put gaps right
   double correction_energy =
       0;              // J, that bodies in contact gained beyond what kinematic bodies did: by corrections of
                       // positions, and by the plans' error, which is of second order
-  int shortened = 0;  // bodies of crowds whose paths were shortened
+  int shortened = 0;  // bodies of piles whose paths were shortened
   double lost_impulse = 0;          // N s, the momentum that this took
-  std::vector<Clash> clashes = {};  // of driven bodies, first told in this frame; times in the frame
+  std::vector<Clash> clashes = {};  // of kinematic bodies, first told in this frame; times in the frame
 };
 
 struct RestOptions {
-  double most_work = 2e5;   // see event_work(): more makes a crowd
+  double most_work = 2e5;   // see event_work(): more makes a pile
   int most_meetings = 256;  // and so does a body that meets others more often in one frame
-  int sweeps = 16;          // of a crowd's rows,
+  int sweeps = 16;          // of a pile's rows,
   int visits = 4000;        // and so many of single rows in any case
   IslandOptions solver = {};
 };
 
 class Resting : public world::Planner {
  public:
-  // Sets the world's reserve. Throws as envelope_of().
+  // Sets the world's rest gap. Throws as envelope_of().
   Resting(const Scene& scene, world::World& world, double dt, const RestOptions& options = {});
 
   // One frame of dt seconds (that of the constructor).
@@ -69,15 +69,15 @@ class Resting : public world::Planner {
     world::StepReport& report;
     const world::Listeners& listeners;
     std::vector<int> bodies = {};   // whose plans end; the list grows
-    std::vector<int> changed = {};  // that have got another course
+    std::vector<int> changed = {};  // that have got another motion
     double gained = 0;  // J, by all of them since they got their last, beyond what kinematic bodies did
   };
   std::vector<int> go_on(Instant instant);
   void go_on(Instant& instant, Island& island);
-  void go_on(Instant& instant, CrowdList::Crowd& crowd);
+  void go_on(Instant& instant, PileList::Pile& pile);
   double stand(Instant& instant, std::span<Member> members);
-  void set_courses(Instant& instant, std::span<const Member> members, double before, double work);
-  void join_crowd(const Island& island, bool must);
+  void set_motions(Instant& instant, std::span<const Member> members, double before, double work);
+  void join_pile(const Island& island, bool must);
   void end_plan(Instant& instant, int number);
   bool resolve(Instant& instant, Island& island);
   bool plan(Instant& instant, Island& island);
@@ -86,17 +86,17 @@ class Resting : public world::Planner {
   Contacts contacts_;
   IslandFinder islands_;
   PlanMaker maker_;
-  CrowdPlanner crowd_planner_;
-  DrivenWatch watch_;
+  PilePlanner pile_planner_;
+  KinematicWatch watch_;
   IslandSolver solver_;
   RestOptions options_;
   double frame_, dt_;  // s, of a frame, and of the part of it at hand
   std::vector<Running> plans_;
   std::vector<int> free_plans_;
-  CrowdList crowds_;
+  PileList piles_;
   std::vector<int> meetings_;       // of each body, in this frame
   std::vector<double> try_length_;  // s, of each body's next plan at most
-  std::vector<double> energy_;      // J, of each body when it got its course, in this frame
+  std::vector<double> energy_;      // J, of each body when it got its motion, in this frame
   RestReport report_;
   RestRecords records_;
 };

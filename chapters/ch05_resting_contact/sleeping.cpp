@@ -14,7 +14,7 @@ bool rests(world::World& world, const Island& island, double dt) {
     world::Body& body = body_of(world, member);
     if (!member.dynamic) {
       lies = true;
-      all = all && !world.carries(member.number);
+      all = all && !world.is_moving_kinematic(member.number);
       continue;
     }
     const double reach = world.shapes[at(body.shape)].reach;
@@ -38,11 +38,11 @@ void wake(world::World& world, std::span<const Member> members, world::StepRepor
 }
 
 void fall_asleep(world::World& world, IslandFinder& islands, double dt, world::StepReport& report) {
-  const std::vector<int> no_crowds(world.bodies.size(), -1);
+  const std::vector<int> no_piles(world.bodies.size(), -1);
   islands.begin(0);
   for (int i = 0; i < static_cast<int>(world.bodies.size()); ++i) {
-    if (!world.yields(i) || world.bodies[at(i)].asleep || islands.is_in_island(i)) continue;
-    const Island island = islands.grow(world, i, no_crowds);
+    if (!world.is_dynamic(i) || world.bodies[at(i)].asleep || islands.is_in_island(i)) continue;
+    const Island island = islands.grow(world, i, no_piles);
     if (!rests(world, island, dt)) continue;
     for (const Member& member : island.members) {
       if (!member.dynamic) continue;

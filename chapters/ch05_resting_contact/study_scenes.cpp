@@ -7,7 +7,7 @@
 namespace fc::resting {
 
 BallResult measure_ball(Setting setting, int repeats, const Look& look) {
-  constexpr double kSlow = 1e-3;  // m/s: below it the ball is still; so it is if it is held
+  constexpr double kSlow = 1e-3;  // m/s: below it the ball is still; so it is if it is frozen
   setting.seconds = 2;
   BallResult result;
   double moved = 0;

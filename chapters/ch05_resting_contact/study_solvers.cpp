@@ -28,7 +28,7 @@ void study_forces(const StudyOptions& options) {
   row("dantzig", 0, {});
   for (int sweeps = 1; sweeps <= 1024; sweeps *= 2) {
     RestOptions rest;
-    rest.most_work = 0;  // a crowd
+    rest.most_work = 0;  // a pile
     rest.sweeps = sweeps;
     rest.visits = 0;
     row("gauss-seidel", sweeps, rest);
@@ -36,7 +36,7 @@ void study_forces(const StudyOptions& options) {
   table.close();
 }
 
-// 36 boxes, as a crowd whose rows are swept so many times, whatever that leaves. Sweeps 0: island by island, by Dantzig's method.
+// 36 boxes, as a pile whose rows are swept so many times, whatever that leaves. Sweeps 0: island by island, by Dantzig's method.
 void study_heap(const StudyOptions& options) {
   TableWriter table(options.out / "heap.csv", {{"sweeps", ""},
                                                {"mean_residual", ""},

@@ -8,7 +8,7 @@ bool is_impact(const Envelope& envelope, const Ball& ball, bool lasts) {
   FC_TODO("5.1");
 }
 
-double allowed(const Envelope& envelope, double gap) {
+double approach_limit(const Envelope& envelope, double gap) {
   FC_TODO("5.1");
 }
 

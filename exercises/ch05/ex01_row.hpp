@@ -24,9 +24,9 @@ struct Ball {
 // than the rest gap h/2, and is not one that `lasts`: at which a plan that ends now has pushed.
 bool is_impact(const Envelope& envelope, const Ball& ball, bool lasts);
 
-// How fast a row with this gap (m) may close in, m/s, never negative: w >= -allowed. What is farther away than h/2 may come in
-// to h/2 by the plan's end; what is nearer may not come nearer.
-double allowed(const Envelope& envelope, double gap);
+// How fast a row with this gap (m) may close in, m/s, never negative: w >= -approach_limit. What is farther away than h/2
+// may come in to h/2 by the plan's end; what is nearer may not come nearer.
+double approach_limit(const Envelope& envelope, double gap);
 
 // By how much a gap (m) that the plan's velocities lead to is widened by displacement, m, never negative: nothing from h/2 on;
 // below, a `share` of what lacks to h/2, or all that lacks to `least` h, whichever is more.

@@ -12,11 +12,11 @@ namespace fc::exercises {
 class Sets {
  public:
   explicit Sets(int count);  // each number by itself
-  // The root of the number's set. Shortens the way on its way: nobody whom it passed is farther from the root
+  // The root of the number's set. Shortens the path as it goes: no number that it passed is farther from the root
   // afterwards than before, and a number more than one step away is nearer.
   int find(int number);
   // Makes one set of two; false if they were one already. The larger set's root stays the root, so that no
-  // way is ever longer than log2(n) steps.
+  // path is ever longer than log2(n) steps.
   bool join(int a, int b);
   int size(int number);  // of its set
   // Steps from a number to its parent that find() has taken, of all calls together: what a search costs.

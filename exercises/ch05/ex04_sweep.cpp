@@ -14,12 +14,12 @@ void apply(std::span<RigidBody> bodies, std::span<const lcp::Contact> contacts,
 }
 
 double sweep(std::span<RigidBody> bodies, std::span<const lcp::Contact> contacts,
-             std::span<const double> allowed, std::span<double> impulses) {
+             std::span<const double> approach_limits, std::span<double> impulses) {
   FC_TODO("5.4");
 }
 
 int solve(std::span<RigidBody> bodies, std::span<const lcp::Contact> contacts,
-          std::span<const double> allowed, std::span<double> impulses, double enough, int most) {
+          std::span<const double> approach_limits, std::span<double> impulses, double enough, int most) {
   FC_TODO("5.4");
 }
 

@@ -34,9 +34,9 @@ int main(int argc, char** argv) {
         }
         const bool above = order == std::string("from above");
         if (above) std::reverse(contacts.begin(), contacts.end());
-        std::vector<double> allowed(contacts.size(), 0), impulses(contacts.size(), 0);
+        std::vector<double> approach_limits(contacts.size(), 0), impulses(contacts.size(), 0);
         for (std::int64_t sweeps = 1; sweeps <= kMost; ++sweeps) {
-          const double change = exercises::sweep(bodies, contacts, allowed, impulses);
+          const double change = exercises::sweep(bodies, contacts, approach_limits, impulses);
           const double floor = above ? impulses.back() : impulses.front();
           if (sweeps <= 50 || sweeps % 20 == 0) table.row({order, count, sweeps, change, 1 - floor / weight});
         }

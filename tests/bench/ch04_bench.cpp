@@ -128,7 +128,7 @@ Verdict judge_gas(const Scene& scene, const std::vector<Shape>& shapes, const Fr
     tree.build(boxes);
     int here = 0;
     tree.overlapping_pairs([&](int a, int b) {
-      if (!world.yields(a) && !world.yields(b)) return;
+      if (!world.is_dynamic(a) && !world.is_dynamic(b)) return;
       const ca::PairPose pose(world.motion(a, 0), world.motion(b, 0), 0);
       here +=
           hulls::model_distance(world.model_of(a), world.model_of(b), pose, kTolerance, kTolerance).lower < 0;

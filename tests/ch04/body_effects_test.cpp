@@ -54,7 +54,7 @@ TEST(Kinematic, ASqueezeIsReported) {
   bool refused = false;
   try {
     const Events events = run_world(world, 0.01, 100);
-    // Or the ball is held where it is, and the piston stops for it: neither overlaps.
+    // Or the ball is frozen where it is, and the piston stops for it: neither overlaps.
     EXPECT_GT(events.lost_time(), 0);
   } catch (const fc::NumericalFailure&) {
     refused = true;
@@ -204,7 +204,7 @@ TEST(Sleep, WhatLiesStillCostsNothing) {
 }
 
 // A ball hits the lower block: both wake, the upper one too, since its support may be gone. (They turn on
-// their edges then, in contact: that is held, and chapter 5's to move.)
+// their edges then, in contact: that is frozen, and chapter 5's to move.)
 TEST(Sleep, WhatIsHitWakesAndWhatLiesOnIt) {
   auto world = make_world(asleep + "  - {shape: ball, position: [-9.2, 0, 0.6], velocity: [8, 0, 5.2]}\n");
   int wakes = 0, falls = 0;

@@ -33,7 +33,7 @@ TEST(HeadOn, ASpeedOfAKilometrePerSecondIsNotMissed) {
   auto world = make_world(balls +
                           "  - {shape: ball, velocity: [1000, 0, 0]}\n"
                           "  - {shape: wall, static: true, position: [50.5, 0, 0]}\n");
-  const Events events = run_world(world, 1.0, 1);  // ten times the way in one frame
+  const Events events = run_world(world, 1.0, 1);  // ten times the distance in one frame
   ASSERT_EQ(events.all.size(), 1U);
   EXPECT_NEAR(events.all[0].t, 0.0495, 1e-9);
   EXPECT_NEAR(body(world, 0).velocity.x(), -1000, 1e-9);

@@ -176,9 +176,9 @@ TEST(Paths, AreMetAtEveryRowAndStraightBetween) {
   EXPECT_LT((body(world, 0).position - Vec3(1, 3, 1) - up).norm(), 1e-14);
 }
 
-// A lift under a block: impacts pile up, and both are held again and again. The lift is late then, and never
+// A lift under a block: impacts pile up, and both are frozen again and again. The lift is late then, and never
 // jumps into what lies on it.
-TEST(Paths, WhoIsHeldOnThemGoesOnLate) {
+TEST(Paths, WhoIsFrozenOnThemGoesOnLate) {
   const PathFile path("0,0,0,0,1,0,0,0\n1,0,0,0.5,1,0,0,0\n");
   auto world = make_world(head + path.body("floor") + "  - {shape: bead, position: [0, 0, 0.601]}\n",
                           {"gravity=[0, 0, -10]"});

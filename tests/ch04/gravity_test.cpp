@@ -50,7 +50,7 @@ TEST(Bounces, AtRestitutionOneKeepTheEnergy) {
 }
 
 // The heights shrink as powers of e^2, the bounces end at t1 (1 + e)/(1 - e) = 1.354 s; after that the ball
-// is held.
+// is frozen.
 TEST(Bounces, ThatPileUpAreReportedAsLostTime) {
   const double first = std::sqrt(2 / g), end = 3 * first;
   auto world = make_world(falling + "  - {shape: ball, position: [0, 0, 1.5]}\n",
@@ -72,7 +72,7 @@ TEST(Bounces, ThatPileUpAreReportedAsLostTime) {
   }
 }
 
-TEST(Landing, WithoutRestitutionStopsAndIsHeld) {
+TEST(Landing, WithoutRestitutionStopsAndIsFrozen) {
   auto world = make_world(falling + "  - {shape: brick, position: [0, 0, 0.5], velocity: [0.2, 0, 0]}\n",
                           {"restitution=0", "ccd.tolerance=1e-6"});
   const Events events = run_world(world, 1.0 / 60, 60);
@@ -88,7 +88,7 @@ TEST(Landing, WithoutRestitutionStopsAndIsHeld) {
   EXPECT_NEAR(body(world, 1).velocity.z(), 0, 0.2);
 }
 
-TEST(Resting, AStackUnderGravityIsHeldAndNeverSinks) {
+TEST(Resting, AStackUnderGravityIsFrozenAndNeverSinks) {
   std::string text = falling;
   for (const char* z : {"0.3", "0.9", "1.5"})
     text += std::string("  - {shape: brick, position: [0, 0, ") + z + "]}\n";

@@ -47,7 +47,7 @@ TEST(Billiard, ACorridorTakesTheSameTimeEachWay) {
       "  - {shape: wall, static: true, position: [-2.5, 0, 0]}\n  - {shape: wall, static: true, position: "
       "[2.5, 0, 0]}\n"
       "  - {shape: ball, velocity: [3, 0.01, 0]}\n");
-  const Events events = run_world(world, 0.1, 1000);  // 3 m free way: one hit a second
+  const Events events = run_world(world, 0.1, 1000);  // a free path of 3 m: one hit a second
   ASSERT_EQ(events.all.size(), 100U);
   for (std::size_t k = 0; k < events.all.size(); ++k)
     EXPECT_NEAR(events.all[k].t, 0.5 + static_cast<double>(k), 1e-8) << "hit " << k;

@@ -103,7 +103,7 @@ TEST(Balls, MeetWhenTheSearchSaysSo) {
     const Events a = run_world(balls, 1, 1), b = run_world(pills, 1, 1);
     ASSERT_EQ(a.all.size(), b.all.size()) << trial;
     for (std::size_t k = 0; k < a.all.size(); ++k) {
-      EXPECT_NEAR(a.all[k].t, b.all[k].t, 1e-6) << trial;  // a tolerance's worth of way
+      EXPECT_NEAR(a.all[k].t, b.all[k].t, 1e-6) << trial;  // a tolerance's worth of distance
       EXPECT_NEAR((a.all[k].contact.normal - b.all[k].contact.normal).norm(), 0, 1e-4);
       EXPECT_NEAR(a.all[k].impulse.impulse, b.all[k].impulse.impulse, 1e-3);
       ++hits;

@@ -1,4 +1,4 @@
-// Bodies that slide, roll or turn on others, touching or within the tolerance: where the way is flush nothing happens.
+// Bodies that slide, roll or turn on others, touching or within the tolerance: where the path is flush nothing happens.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -78,7 +78,7 @@ std::string with_files(std::string text) {
   return text;
 }
 
-// A floor of 6 x 2 tiles, a slider on it, all turned by `turn`; after a second the slider is where a straight way leads.
+// A floor of 6 x 2 tiles, a slider on it, all turned by `turn`; after a second the slider is where a straight path leads.
 void expect_passes(const Slider& slider, const Floor& floor, double gap, const Quat& turn,
                    const Vec3& velocity, const Vec3& spin) {
   SCOPED_TRACE(fmt::format("{} over {}, gap {}, v {}, spin {}, turned {}", slider.name, floor.name, gap,
@@ -98,7 +98,7 @@ void expect_passes(const Slider& slider, const Floor& floor, double gap, const Q
   EXPECT_EQ(events.lost_time(), 0);
   EXPECT_LE((after.velocity - before.velocity).norm(), 1e-9) << "m/s";
   EXPECT_LE((after.spin - before.spin).norm(), 1e-9) << "rad/s";
-  EXPECT_LE((after.position - before.position - before.velocity).norm(), 1e-9) << "m, off the straight way";
+  EXPECT_LE((after.position - before.position - before.velocity).norm(), 1e-9) << "m, off the straight path";
 }
 
 const Quat tilted = Quat(0.8, 0.3, -0.4, 0.33).normalized();
@@ -187,7 +187,7 @@ TEST(HeldInFreeFlight, TheCentreOfMassGoesOn) {
   EXPECT_GT(lost, 0) << "or this tests nothing";
 }
 
-// What acts on all bodies alike acts on a group that is held, too: on its way, and on the velocities that it keeps.
+// What acts on all bodies alike acts on a group that is frozen, too: on its path, and on the velocities that it keeps.
 TEST(HeldInFreeFlight, TheGroupFallsAndIsSlowedDown) {
   struct Force {
     const char *text, *name;

@@ -97,8 +97,8 @@ TEST(Thrown, InFreeSpaceKeepsMomentaAndNeverOverlaps) {
   EXPECT_GT(instants, 100);
 }
 
-// Impacts pile up, and groups of bodies are held: nothing overlaps at any frame's end, by code that shares nothing with ours.
-TEST(Thrown, WithHardlyAnyRestitutionHeldGroupsNeverOverlap) {
+// Impacts pile up, and groups of bodies are frozen: nothing overlaps at any frame's end, by code that shares nothing with ours.
+TEST(Thrown, WithHardlyAnyRestitutionFrozenGroupsNeverOverlap) {
   double lost = 0;
   for (unsigned seed = 1; seed <= 12; ++seed) {
     SCOPED_TRACE(seed);

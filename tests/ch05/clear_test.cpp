@@ -59,7 +59,7 @@ struct Watched {
     double depth = 0;
     for (int a = 0; a < static_cast<int>(world.bodies.size()); ++a)
       for (int b = a + 1; b < static_cast<int>(world.bodies.size()); ++b) {
-        if (!world.yields(a) && !world.yields(b)) continue;
+        if (!world.is_dynamic(a) && !world.is_dynamic(b)) continue;
         const fc::ca::PairPose pose(world.bodies[a].state.pose(), world.bodies[b].state.pose());
         const auto gap = fc::hulls::model_distance(world.model_of(a), world.model_of(b), pose, 1e-9, 1e-6);
         depth = std::max(depth, -gap.lower);
@@ -318,7 +318,7 @@ TEST(Clear, KeepsTheLawsInRandomScenes) {
   }
 }
 
-// Crowds take it long: only as many frames as a test has time for.
+// Piles take it long: only as many frames as a test has time for.
 TEST(Clear, KeepsTheLawsInTheGallery) {
   for (const auto& [name, frames] :
        {std::pair("mixed", 42), std::pair("heap", 40), std::pair("cylinders", 8)}) {

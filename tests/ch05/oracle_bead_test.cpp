@@ -68,8 +68,8 @@ TEST(Bead, InAValleyOfTwoPlanes) {
       rise = std::max(rise, sim.energy() - energy - sim.last.correction_energy);
       energy = sim.energy();
       const Vec3 x = sim.body(2).position - bottom;
-      const double way = x.x() >= 0 ? x.dot(Vec3(c, 0, s)) : x.dot(Vec3(c, 0, -s));
-      error = std::max(error, std::abs(way - valley.at(sim.time())));
+      const double distance = x.x() >= 0 ? x.dot(Vec3(c, 0, s)) : x.dot(Vec3(c, 0, -s));
+      error = std::max(error, std::abs(distance - valley.at(sim.time())));
       off = std::max(off, std::abs(std::abs(x.x()) * s - x.z() * c));
     }
     EXPECT_LE(error, 6 * kGap) << "m along the slope, over three corners, with frames of " << dt << " s";

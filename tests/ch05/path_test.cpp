@@ -144,9 +144,9 @@ TEST(Path, ProvesOnlyWhatIsClear) {
     Contacts contacts(world, 2e-3);
     PairContacts& pair = contacts.pair(0, 1);
     contacts.update(world, pair, a.pose(), b.pose());
-    const fc::resting::Track track_a = fc::resting::track_of(world, 0, 0, dt),
-                             track_b = fc::resting::track_of(world, 1, 0, dt);
-    const auto verdict = fc::resting::check_path(world, contacts, pair, track_a, track_b, dt, {.need = need});
+    const fc::resting::Path path_a = fc::resting::path_of(world, 0, 0, dt),
+                            path_b = fc::resting::path_of(world, 1, 0, dt);
+    const auto verdict = fc::resting::check_path(world, contacts, pair, path_a, path_b, dt, {.need = need});
     const fc::ca::Motion motion_a = world.motion(0, 0), motion_b = world.motion(1, 0);
     const auto gap_at = [&](double t) { return distance(world, motion_a.pose_at(t), motion_b.pose_at(t)); };
     double least = 1e300;
@@ -160,8 +160,8 @@ TEST(Path, ProvesOnlyWhatIsClear) {
       ++reached;
     }
     // Planes alone prove less; but what they do prove, until that time, is clear.
-    const auto planes = fc::resting::check_path(world, contacts, pair, track_a, track_b, dt,
-                                                {.need = need, .by_planes = true});
+    const auto planes =
+        fc::resting::check_path(world, contacts, pair, path_a, path_b, dt, {.need = need, .by_planes = true});
     by_planes += planes.clear;
     EXPECT_TRUE(verdict.clear || !planes.clear) << "trial " << trial;
     for (int k = 0; k <= 200; ++k) {

@@ -50,7 +50,7 @@ struct Random {
 std::string random_scene(unsigned seed) {
   Random random{std::mt19937_64(seed)};
   const int count = 2 + random.below(seed % 4 == 0 ? 39 : 8);
-  const bool falls = !random.chance(0.25), pit = random.chance(0.3), driven = random.chance(0.2),
+  const bool falls = !random.chance(0.25), pit = random.chance(0.3), paddle = random.chance(0.2),
              mixed = random.chance(0.3);
   const double dt = random.log(1.0 / 240, random.chance(0.2) ? 0.5 : 0.05);
   const std::string ring =
@@ -58,7 +58,7 @@ std::string random_scene(unsigned seed) {
   const double restitution = random.chance(0.3) ? 0 : random(0, 1);
   const double heaviest = random.chance(0.5) ? 1 : random.log(1, 1e6);
   std::string shapes = "  floor: {box: {size: [40, 40, 1]}}\n  wall: {box: {size: [1, 8, 8]}}\n", bodies;
-  if (driven) shapes += "  paddle: {box: {size: [0.6, 0.6, 0.6]}}\n";
+  if (paddle) shapes += "  paddle: {box: {size: [0.6, 0.6, 0.6]}}\n";
   for (int i = 0; i < count; ++i) {
     const std::array<std::string, 9> kinds{
         "box: {size: [0.5, 0.4, 0.3]}",
@@ -86,7 +86,7 @@ std::string random_scene(unsigned seed) {
     if (pit)
       for (const double x : {-2.3, 2.3})
         bodies += fmt::format("  - {{shape: wall, static: true, position: [{}, 0, 3.9]}}\n", x);
-    if (driven)
+    if (paddle)
       bodies += fmt::format(
           "  - {{shape: paddle, kinematic: true, position: [-4, {}, 0.31], velocity: [{}, 0, 0]}}\n",
           random(-0.5, 0.5), random(0.5, 3));
@@ -117,7 +117,7 @@ double deepest(const fc::world::World& world) {
   double depth = 0;
   for (int a = 0; a < static_cast<int>(world.bodies.size()); ++a)
     for (int b = a + 1; b < static_cast<int>(world.bodies.size()); ++b) {
-      if (!world.yields(a) && !world.yields(b)) continue;
+      if (!world.is_dynamic(a) && !world.is_dynamic(b)) continue;
       const fc::ca::PairPose pose(world.bodies[a].state.pose(), world.bodies[b].state.pose());
       const double far =
           world.shapes[world.bodies[a].shape].reach + world.shapes[world.bodies[b].shape].reach;

@@ -30,7 +30,7 @@ TEST(Rest, ABoxStaysForTenMinutes) {
     s.run(595);
     EXPECT_LE((s.body(1).position - settled).norm(), 1e-9) << "m of drift in ten minutes";
     EXPECT_EQ(s.kinetic(), 0) << "J";
-    EXPECT_EQ(s.lost, 0) << "s: nothing is held any more";
+    EXPECT_EQ(s.lost, 0) << "s: nothing is frozen any more";
     EXPECT_NEAR(s.corrected, 2 * 10 * 0.00025, 1e-5) << "J: what the lift took, and it is told";
   }
 }
@@ -122,7 +122,7 @@ TEST(Zeno, ABallComesToRest) {
   }
 }
 
-// A box that lands flat without bounce lies still at once, and is not held.
+// A box that lands flat without bounce lies still at once, and is not frozen.
 TEST(Landing, WithoutBounceLosesNoTime) {
   Simulation s(head +
                    "  - {shape: box, position: [0, 0, 1.7]}\n  - {shape: box, position: [3, 0, 0.9], "
@@ -253,10 +253,10 @@ TEST(IslandSolver, SaysWhenItGivesUp) {
   // Pressed from both sides by what does not give way: no velocity is right.
   const std::vector<fc::lcp::Contact> contacts = {{0, 1, Vec3::Zero(), Vec3::UnitZ()},
                                                   {0, 1, Vec3(0, 0, 1), -Vec3::UnitZ()}};
-  const std::vector<double> allowed = {-1, -1};
+  const std::vector<double> approach_limits = {-1, -1};
   std::vector<double> z(2, 0);
   fc::resting::IslandSolver solver;
-  EXPECT_FALSE(solver.solve(bodies, contacts, allowed, z, {}).solved);
+  EXPECT_FALSE(solver.solve(bodies, contacts, approach_limits, z, {}).solved);
   EXPECT_EQ(bodies[1].velocity, Vec3(0, 0, -1));
 }
 

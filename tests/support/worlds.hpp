@@ -58,7 +58,7 @@ struct Film {
 };
 
 // Runs the world for so many frames; follows every body by own motion from one instant to the next, and looks
-// for overlaps at `samples` times in each piece. A frame in which a body was held is not followed inside,
+// for overlaps at `samples` times in each piece. A frame in which a body was frozen is not followed inside,
 // only at its ends.
 inline Film film(fc::world::World& world, const std::vector<independent::Solid>& solids, double dt,
                  int frames, int samples, independent::How how) {

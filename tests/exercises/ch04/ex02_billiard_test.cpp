@@ -157,7 +157,7 @@ TEST(Ex02Billiard, HoweverSlowOrFast) {
           << "of the time it should take: at " << factor
           << " times the speed; the square of the speed may be no double";
       EXPECT_NEAR((b.place - usual.place).norm(), 0, 1e-14)
-          << "m: the way is the same, however long it takes";
+          << "m: the path is the same, however long it takes";
     }
   }
 }

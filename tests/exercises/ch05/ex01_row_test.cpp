@@ -62,17 +62,19 @@ TEST(Ex01Row, NoFrameMakesEnergy) {
 }
 
 TEST(Ex01Row, MayCloseInToTheRestGap) {
-  EXPECT_EQ(allowed(kEnvelope, kWidth), 0.5 * kWidth / kFrame) << "m/s: half the envelope in one frame";
-  EXPECT_EQ(allowed(kEnvelope, 0.75 * kWidth), 0.25 * kWidth / kFrame)
+  EXPECT_EQ(approach_limit(kEnvelope, kWidth), 0.5 * kWidth / kFrame)
+      << "m/s: half the envelope in one frame";
+  EXPECT_EQ(approach_limit(kEnvelope, 0.75 * kWidth), 0.25 * kWidth / kFrame)
       << "m/s: a quarter of the envelope in one frame, to h/2";
-  EXPECT_EQ(allowed(kEnvelope, 3 * kWidth), 2.5 * kWidth / kFrame)
+  EXPECT_EQ(approach_limit(kEnvelope, 3 * kWidth), 2.5 * kWidth / kFrame)
       << "m/s: from outside of the envelope, too, it comes to h/2 by the plan's end";
-  EXPECT_EQ(allowed(kEnvelope, 0.5 * kWidth), 0) << "m/s: it is at the rest gap, and may not come nearer";
+  EXPECT_EQ(approach_limit(kEnvelope, 0.5 * kWidth), 0)
+      << "m/s: it is at the rest gap, and may not come nearer";
 }
 
 TEST(Ex01Row, NoGapBecomesAVelocity) {
   for (const double part : {0.0, 0.1, 0.25, 0.499})
-    EXPECT_EQ(allowed(kEnvelope, part * kWidth), 0)
+    EXPECT_EQ(approach_limit(kEnvelope, part * kWidth), 0)
         << "m/s, with a gap of " << part
         << " h: it may not come nearer, but nothing drives it out; that would make energy out of an error";
 }
@@ -160,7 +162,7 @@ TEST(Ex01Row, HowFarAGapIsDisplaced) {
   EXPECT_NEAR(displacement(kEnvelope, 0.24 * kWidth), 0.052 * kWidth, kRounding)
       << "m: a fifth of 0.26 h is more than the hundredth that lacks to h/4";
   EXPECT_NEAR(displacement(kEnvelope, 0.1 * kWidth), 0.15 * kWidth, kRounding)
-      << "m: what lacks to h/4, at once, for there the reserve begins";
+      << "m: what lacks to h/4, at once, for the least gap is there";
   EXPECT_NEAR(displacement({kWidth, kFrame, 1, 0}, 0), 0.5 * kWidth, kRounding)
       << "m: with a share of 1 all that lacks to h/2, at once";
 }

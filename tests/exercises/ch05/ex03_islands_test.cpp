@@ -145,7 +145,7 @@ TEST(Ex03Islands, NoWayIsLongerThanTheLogarithm) {
     }
 }
 
-// Each time a number is asked its way is half as long.
+// Each time a number is searched its path is half as long.
 TEST(Ex03Islands, WhoWasAskedIsNearer) {
   constexpr int kLevels = 12, kCount = 1 << kLevels;
   Sets sets(kCount);

@@ -26,14 +26,14 @@ using Numbers = std::vector<double>;
 struct Scene {
   std::vector<RigidBody> bodies;
   std::vector<Contact> contacts;
-  Numbers allowed, impulses;
+  Numbers approach_limits, impulses;
 
   void add(const Contact& contact, double may = 0) {
     contacts.push_back(contact);
-    allowed.push_back(may);
+    approach_limits.push_back(may);
     impulses.push_back(0);
   }
-  double sweep_once() { return sweep(bodies, contacts, allowed, impulses); }
+  double sweep_once() { return sweep(bodies, contacts, approach_limits, impulses); }
   double energy() const {  // J
     double sum = 0;
     for (const RigidBody& body : bodies) sum += body.is_static() ? 0 : body.kinetic_energy();
@@ -125,14 +125,14 @@ TEST(Ex04Sweep, ABodyThatIsTurned) {
 
 TEST(Ex04Sweep, ABodyThatLands) {
   Scene scene = stack(1, 3);
-  scene.allowed[0] = 0.5;
+  scene.approach_limits[0] = 0.5;
   scene.bodies[1].set_mass(fc::box_mass({1, 1, 1}, 2));
   EXPECT_NEAR(scene.sweep_once(), 2.5, 1e-14) << "m/s: so much was too fast";
   EXPECT_NEAR(scene.bodies[1].velocity.z(), -0.5, 1e-14) << "m/s: it may close in with 0.5";
   EXPECT_NEAR(scene.impulses[0], 5, 1e-14) << "N s: 2 kg lose 2.5 m/s";
   EXPECT_NEAR(scene.sweep_once(), 0, 1e-14)
       << "m/s: one row is solved by one sweep, so a second changes nothing";
-  scene.allowed[0] = -1;
+  scene.approach_limits[0] = -1;
   scene.sweep_once();
   EXPECT_NEAR(scene.bodies[1].velocity.z(), 1, 1e-14) << "m/s: now it must part with 1";
 }
@@ -186,7 +186,7 @@ TEST(Ex04Sweep, AStackCarriesItsWeight) {
   constexpr int kCount = 8;
   const double speed = 9.81 / 60;  // m/s, of one frame
   Scene scene = stack(kCount, speed);
-  const int sweeps = solve(scene.bodies, scene.contacts, scene.allowed, scene.impulses, 1e-13, 5000);
+  const int sweeps = solve(scene.bodies, scene.contacts, scene.approach_limits, scene.impulses, 1e-13, 5000);
   EXPECT_LT(sweeps, 5000) << "sweeps: a stack of eight is solved in some hundreds";
   EXPECT_GT(sweeps, kCount) << "sweeps: the last news has to come down again";
   for (int k = 0; k < kCount; ++k)
@@ -196,7 +196,7 @@ TEST(Ex04Sweep, AStackCarriesItsWeight) {
   // Next frame, with these as a guess.
   for (RigidBody& body : scene.bodies)
     if (!body.is_static()) body.velocity.z() -= speed;
-  EXPECT_EQ(solve(scene.bodies, scene.contacts, scene.allowed, scene.impulses, 1e-10, 5000), 1)
+  EXPECT_EQ(solve(scene.bodies, scene.contacts, scene.approach_limits, scene.impulses, 1e-10, 5000), 1)
       << "sweeps: the guess is the answer, and one sweep sees that";
   for (const RigidBody& body : scene.bodies)
     EXPECT_NEAR(body.velocity.norm(), 0, 1e-10) << "m/s: the stack stands";
@@ -204,10 +204,10 @@ TEST(Ex04Sweep, AStackCarriesItsWeight) {
 
 TEST(Ex04Sweep, CountsItsSweeps) {
   Scene scene = stack(8, 1);
-  EXPECT_EQ(solve(scene.bodies, scene.contacts, scene.allowed, scene.impulses, 1e-12, 3), 3)
+  EXPECT_EQ(solve(scene.bodies, scene.contacts, scene.approach_limits, scene.impulses, 1e-12, 3), 3)
       << "sweeps: that was the limit";
   Scene apart = stack(8, 0);
-  EXPECT_EQ(solve(apart.bodies, apart.contacts, apart.allowed, apart.impulses, 1e-12, 3), 1)
+  EXPECT_EQ(solve(apart.bodies, apart.contacts, apart.approach_limits, apart.impulses, 1e-12, 3), 1)
       << "sweeps: the first sees that there is nothing to do";
 }
 
@@ -218,7 +218,7 @@ TEST(Ex04Sweep, AsOnTheMatrix) {
     const fc::lcp::ImpactProblem problem = fc::lcp::assemble(scene.bodies, scene.contacts);
     const Eigen::Index n = problem.b.size();
     fc::VecX z = fc::VecX::Zero(n), b = problem.v_before;
-    for (Eigen::Index i = 0; i < n; ++i) b[i] += scene.allowed[static_cast<std::size_t>(i)];
+    for (Eigen::Index i = 0; i < n; ++i) b[i] += scene.approach_limits[static_cast<std::size_t>(i)];
     for (int sweeps = 1; sweeps <= 10; ++sweeps) {
       double largest = 0;
       for (Eigen::Index i = 0; i < n; ++i) {
@@ -242,12 +242,12 @@ TEST(Ex04Sweep, EndsAtTheExactAnswer) {
     if (seed % 3 == 0) std::fill(scene.impulses.begin(), scene.impulses.end(), 0.7);
     const fc::lcp::ImpactProblem problem = fc::lcp::assemble(scene.bodies, scene.contacts);
     fc::VecX b = problem.v_before;
-    for (Eigen::Index i = 0; i < b.size(); ++i) b[i] += scene.allowed[static_cast<std::size_t>(i)];
+    for (Eigen::Index i = 0; i < b.size(); ++i) b[i] += scene.approach_limits[static_cast<std::size_t>(i)];
     const fc::lcp::LcpResult exact = fc::lcp::solve_dantzig({problem.A, b});
     ASSERT_EQ(exact.status, fc::lcp::Status::solved) << "seed " << seed << ", of the test itself";
-    solve(scene.bodies, scene.contacts, scene.allowed, scene.impulses, 1e-13, 100'000);
+    solve(scene.bodies, scene.contacts, scene.approach_limits, scene.impulses, 1e-13, 100'000);
     for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
-      ASSERT_NEAR(fc::lcp::contact_velocity(scene.bodies, scene.contacts[i]) + scene.allowed[i],
+      ASSERT_NEAR(fc::lcp::contact_velocity(scene.bodies, scene.contacts[i]) + scene.approach_limits[i],
                   exact.w[static_cast<Eigen::Index>(i)], 1e-8)
           << "m/s, contact " << i << ", seed " << seed
           << ": the velocities are unique, and Dantzig's method has them";

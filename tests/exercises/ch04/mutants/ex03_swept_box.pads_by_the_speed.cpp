@@ -37,9 +37,9 @@ world::Bounds swept_box(const Vec3& half, const RigidBody& start, const Vec3& ac
     for (int corner = 0; corner < 8; ++corner) {
       const Vec3 signs(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
       const Vec3 arm = start.orientation * half.cwiseProduct(signs);
-      const double way = axis.cross(arm).norm() * rate * dt;
-      turn.hold(arm[i] - way);
-      turn.hold(arm[i] + way);
+      const double distance = axis.cross(arm).norm() * rate * dt;
+      turn.hold(arm[i] - distance);
+      turn.hold(arm[i] + distance);
     }
     box.low[i] = path.low + turn.low;
     box.high[i] = path.high + turn.high;

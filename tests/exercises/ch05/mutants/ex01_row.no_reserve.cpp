@@ -10,7 +10,7 @@ bool is_impact(const Envelope& envelope, const Ball& ball, bool lasts) {
   return !lasts && ball.gap <= 0.5 * envelope.width && -ball.velocity > envelope.width / envelope.dt;
 }
 
-double allowed(const Envelope& envelope, double gap) {
+double approach_limit(const Envelope& envelope, double gap) {
   return std::max(0.0, gap - 0.5 * envelope.width) / envelope.dt;
 }
 
@@ -23,7 +23,7 @@ double displacement(const Envelope& envelope, double gap) {
 Frame rest(const Envelope& envelope, double gravity, Ball& ball) {
   const double half = 0.5 * envelope.dt * gravity, falling = ball.velocity - half;
   Frame frame;
-  ball.velocity = std::max(falling, -allowed(envelope, ball.gap));
+  ball.velocity = std::max(falling, -approach_limit(envelope, ball.gap));
   frame.push = ball.mass * (ball.velocity - falling);
   ball.gap += envelope.dt * ball.velocity;
 

@@ -1,5 +1,5 @@
 // Caught by: Ex03Islands.WhoWasAskedIsNearer
-// The way is gone, and stays as it was.
+// The path is followed, and stays as it was.
 #include "ex03_islands.hpp"
 
 #include <numeric>

@@ -21,7 +21,7 @@ Sets::Sets(int count) : parents_(at(count)), sizes_(at(count), 1) {
 int Sets::find(int number) {
   while (parents_[at(number)] != number) {
     int& parent = parents_[at(number)];
-    parent = parents_[at(parent)];  // the grandparent: from now on the way is half as long
+    parent = parents_[at(parent)];  // the grandparent: from now on the path is half as long
     number = parent;
     ++steps_;
   }

@@ -36,11 +36,11 @@ void apply(std::span<RigidBody> bodies, std::span<const lcp::Contact> contacts,
 }
 
 double sweep(std::span<RigidBody> bodies, std::span<const lcp::Contact> contacts,
-             std::span<const double> allowed, std::span<double> impulses) {
+             std::span<const double> approach_limits, std::span<double> impulses) {
   double largest = 0;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const double mass = effective_mass(bodies, contacts[i]);
-    const double w = lcp::contact_velocity(bodies, contacts[i]) + allowed[i];
+    const double w = lcp::contact_velocity(bodies, contacts[i]) + approach_limits[i];
     // It is the sum that must not pull: what was too much in an earlier sweep may be taken back.
     const double after = std::max(0.0, impulses[i] - mass * w);
     const double change = after - impulses[i];
@@ -52,12 +52,12 @@ double sweep(std::span<RigidBody> bodies, std::span<const lcp::Contact> contacts
 }
 
 int solve(std::span<RigidBody> bodies, std::span<const lcp::Contact> contacts,
-          std::span<const double> allowed, std::span<double> impulses, double enough, int most) {
+          std::span<const double> approach_limits, std::span<double> impulses, double enough, int most) {
   apply(bodies, contacts, impulses);
   int sweeps = 0;
   while (sweeps < most) {
     ++sweeps;
-    if (sweep(bodies, contacts, allowed, impulses) <= enough) break;
+    if (sweep(bodies, contacts, approach_limits, impulses) <= enough) break;
   }
   return sweeps;
 }

@@ -1,24 +1,24 @@
-// Crowds: rows solved by sweeps against Dantzig's method; energy; heaps in which nothing overlaps.
+// Piles: rows solved by sweeps against Dantzig's method; energy; heaps in which nothing overlaps.
 #include <gtest/gtest.h>
 
 #include <random>
 
 #include "ch03_impulse_lcp/dantzig.hpp"
 #include "ch03_impulse_lcp/delassus.hpp"
-#include "ch05_resting_contact/sweeps.hpp"
+#include "ch05_resting_contact/gauss_seidel.hpp"
 #include "support/gallery.hpp"
 
 namespace {
 
 using namespace fc_test;
 using fc::Vec3;
-using fc::resting::Sweeps;
+using fc::resting::GaussSeidel;
 using fc::resting::Twist;
 
 struct Pile {
   std::vector<fc::RigidBody> bodies;
   std::vector<fc::lcp::Contact> contacts;
-  std::vector<double> allowed;
+  std::vector<double> approach_limits;
 
   explicit Pile(unsigned seed) {
     std::mt19937 random(seed);
@@ -33,25 +33,27 @@ struct Pile {
         const int below = static_cast<int>(i) - 1;
         contacts.push_back({below, static_cast<int>(i), bodies[i].position + Vec3(uniform(), uniform(), -0.5),
                             Vec3(0.3 * uniform(), 0.3 * uniform(), 1).normalized(), 1e-4});
-        allowed.push_back(0.1 * (1 + uniform()));
+        approach_limits.push_back(0.1 * (1 + uniform()));
       }
     }
   }
 
   // Both problems begin with the bodies' velocities; `less`: m/s, by which the paths may close in less than velocities.
-  Sweeps sweeps(double guess = 0, double less = 0) const {
-    Sweeps result;
+  GaussSeidel solver(double guess = 0, double less = 0) const {
+    GaussSeidel result;
     for (const fc::RigidBody& body : bodies)
       result.add_body(body, {body.velocity, body.spin}, {body.velocity, body.spin});
     for (std::size_t i = 0; i < contacts.size(); ++i)
-      result.add(contacts[i], allowed[i], allowed[i] - less, guess * static_cast<double>(i % 5), 0);
+      result.add(contacts[i], approach_limits[i], approach_limits[i] - less,
+                 guess * static_cast<double>(i % 5), 0);
     return result;
   }
 
-  fc::VecX exact_speeds(double less) const {  // J v+ + allowed - less
+  fc::VecX exact_speeds(double less) const {  // J v+ + approach_limit - less
     const fc::lcp::ImpactProblem problem = fc::lcp::assemble(bodies, contacts);
     fc::VecX b = problem.b;
-    for (std::size_t i = 0; i < allowed.size(); ++i) b[static_cast<Eigen::Index>(i)] += allowed[i] - less;
+    for (std::size_t i = 0; i < approach_limits.size(); ++i)
+      b[static_cast<Eigen::Index>(i)] += approach_limits[i] - less;
     const fc::lcp::Lcp rows{problem.A, b};
     fc::lcp::DantzigSolver dantzig;
     fc::lcp::LcpResult exact;
@@ -77,47 +79,47 @@ double energy(const std::vector<fc::RigidBody>& bodies) {
 }
 
 // After many sweeps both problems are solved as Dantzig's method solves them, also from a bad guess; single precision is seen.
-TEST(Sweeps, AgreeWithDantzig) {
+TEST(GaussSeidel, AgreesWithDantzig) {
   for (unsigned seed = 1; seed <= 40; ++seed) {
     const Pile pile(seed);
-    Sweeps sweeps = pile.sweeps(seed % 2 == 0 ? 0.3 : 0, 0.05);
-    sweeps.run(20'000);
-    EXPECT_LE(sweeps.residual(), 1e-5) << seed;
+    GaussSeidel solver = pile.solver(seed % 2 == 0 ? 0.3 : 0, 0.05);
+    solver.run(20'000);
+    EXPECT_LE(solver.residual(), 1e-5) << seed;
     std::vector<Twist> velocities, paths;
-    sweeps.work_out(velocities, paths);
+    solver.work_out(velocities, paths);
     for (const bool is_path : {false, true}) {
       const fc::VecX exact = pile.exact_speeds(is_path ? 0.05 : 0);
       const std::vector<fc::RigidBody> bodies = pile.with(is_path ? paths : velocities);
       for (std::size_t i = 0; i < pile.contacts.size(); ++i)
-        EXPECT_NEAR(
-            fc::lcp::contact_velocity(bodies, pile.contacts[i]) + pile.allowed[i] - (is_path ? 0.05 : 0),
-            exact[static_cast<Eigen::Index>(i)], 5e-3)
+        EXPECT_NEAR(fc::lcp::contact_velocity(bodies, pile.contacts[i]) + pile.approach_limits[i] -
+                        (is_path ? 0.05 : 0),
+                    exact[static_cast<Eigen::Index>(i)], 5e-3)
             << seed << " row " << i << (is_path ? " of paths" : " of velocities");
     }
   }
 }
 
 // Stopped after any number of sweeps, from any guess: no kinetic energy is made, but for the rounding of single precision.
-TEST(Sweeps, NeverMakeEnergy) {
+TEST(GaussSeidel, NeverMakesEnergy) {
   for (unsigned seed = 1; seed <= 200; ++seed) {
     const Pile pile(seed);
-    Sweeps sweeps = pile.sweeps(seed % 4);
-    sweeps.run(1 + static_cast<int>(seed % 20));
+    GaussSeidel solver = pile.solver(seed % 4);
+    solver.run(1 + static_cast<int>(seed % 20));
     std::vector<Twist> velocities, paths;
-    sweeps.work_out(velocities, paths);
+    solver.work_out(velocities, paths);
     EXPECT_LE(energy(pile.with(velocities)), energy(pile.bodies) * (1 + 1e-5)) << seed;
-    for (int i = 0; i < sweeps.rows(); ++i) EXPECT_GE(sweeps.impulse(i), 0);
+    for (int i = 0; i < solver.rows(); ++i) EXPECT_GE(solver.impulse(i), 0);
   }
 }
 
 // Impulses act on both bodies with the same numbers, whatever those were found with: momentum stays.
-TEST(Sweeps, KeepMomentum) {
+TEST(GaussSeidel, KeepsMomentum) {
   Pile pile(7);
   pile.contacts.erase(pile.contacts.begin(), pile.contacts.begin() + 4);  // the floor's
-  Sweeps sweeps = pile.sweeps();
-  sweeps.run(10);
+  GaussSeidel solver = pile.solver();
+  solver.run(10);
   std::vector<Twist> velocities, paths;
-  sweeps.work_out(velocities, paths);
+  solver.work_out(velocities, paths);
   Vec3 before = Vec3::Zero(), after = Vec3::Zero(), turn = Vec3::Zero();
   for (std::size_t i = 1; i < pile.bodies.size(); ++i) {
     const fc::RigidBody& body = pile.bodies[i];
@@ -132,9 +134,9 @@ TEST(Sweeps, KeepMomentum) {
 }
 
 // A dropped row pushes nothing, and the others are solved without it.
-TEST(Sweeps, ForgetWhatIsDropped) {
+TEST(GaussSeidel, ForgetsWhatIsDropped) {
   const Pile pile(3);
-  Sweeps all = pile.sweeps(), dropped = pile.sweeps();
+  GaussSeidel all = pile.solver(), dropped = pile.solver();
   dropped.run(50);
   int most = 0;
   for (int i = 0; i < dropped.rows(); ++i)

@@ -1,12 +1,12 @@
-// Crowds: so many bodies that meet in one frame that nobody could go from one of their events to the next.
+// Piles: so many bodies that meet in one frame that nobody could go from one of their events to the next.
 #pragma once
 
+#include "ch05_resting_contact/gauss_seidel.hpp"
 #include "ch05_resting_contact/plan.hpp"
-#include "ch05_resting_contact/sweeps.hpp"
 
 namespace fc::resting {
 
-struct CrowdOptions {
+struct PileOptions {
   double frame =
       0;  // s: what comes in faster than a margin in that time gives back what its restitution says
   int sweeps = 16;
@@ -16,20 +16,20 @@ struct CrowdOptions {
   bool told = true;     // whether rows are wanted
 };
 
-// Plans for crowds. There are no events in one: whatever arrives within the plan's time does so at its end, and gives back at
+// Plans for piles. There are no events in one: whatever arrives within the plan's time does so at its end, and gives back at
 // the end what its restitution says.
 //   1. From v + T g, the velocities after free flight, and from u, its mean velocities, sweeps find the end's velocities (no
 //      contact closes in by more than what is left of its gap) and the paths' (gaps end as wanted), all rows at once.
 //   2. All paths are proved. For pairs whose are not clear the rows are corrected to the gaps at the end as they will be, with
 //      the points that the two have there, and paths are swept again.
-//   3. Who then still is in someone's way goes only a share of its path, and keeps that share of its velocity; bodies that push
-//      each other keep one share together, since then they move as they would, but slower.
-class CrowdPlanner {
+//   3. A body that is then still in the way of another goes only a share of its path, and keeps that share of its velocity;
+//      bodies that push each other keep one share together, since then they move as they would, but slower.
+class PilePlanner {
  public:
-  explicit CrowdPlanner(Contacts& contacts) : contacts_(contacts), courses_(contacts, true) {}
+  explicit PilePlanner(Contacts& contacts) : contacts_(contacts), courses_(contacts, true) {}
 
   Planned make(const world::World& world, std::span<const Member> members, double now, double length,
-               const CrowdOptions& options);
+               const PileOptions& options);
 
   // Of the last make():
   double lost_impulse() const { return lost_; }  // N s, that shortening took
@@ -37,7 +37,7 @@ class CrowdPlanner {
   bool gains() const { return gains_; }  // whether it adds more energy than is small beside what there is
   // Kinematic bodies (by their numbers in the world) that went into what could not give way.
   const std::vector<int>& blocked() const { return blocked_; }
-  double residual() const { return sweeps_.residual(); }
+  double residual() const { return gauss_seidel_.residual(); }
   int sweeps() const { return swept_; }
   int checked() const { return courses_.checked(); }
   int rows() const { return static_cast<int>(rows_.size()); }
@@ -68,8 +68,8 @@ class CrowdPlanner {
 
   Contacts& contacts_;
   Courses courses_;
-  Sweeps sweeps_;
-  CrowdOptions options_;
+  GaussSeidel gauss_seidel_;
+  PileOptions options_;
   std::vector<Row> rows_;
   std::vector<int> first_row_;  // of each candidate, or -1
   std::vector<ContactPoint> late_;

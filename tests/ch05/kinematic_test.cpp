@@ -1,4 +1,4 @@
-// Impacts on what rests, and bodies that are driven into others.
+// Impacts on what rests, and kinematic bodies that go into others.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@ namespace {
 
 using namespace fc_test;
 
-// A driven plate pushes two boxes against a wall, and cannot: nobody is run through, neither by the exact
+// A kinematic plate pushes two boxes against a wall, and cannot: nobody is run through, neither by the exact
 // solution nor in a pile, and what the plate does on the way is told.
-TEST(Driven, APlateThatCannotGoOnIsStopped) {
+TEST(KinematicBody, APlateThatCannotGoOnIsStopped) {
   for (const double most_work : {2e5, 0.0}) {
     Simulation s(
         "step: {dt: 0.01, duration: 1}\nenvelope: 5.0e-4\nshapes:\n"
@@ -56,9 +56,9 @@ TEST(Impact, WhatRestsDoesNotHop) {
   }
 }
 
-// Nothing stops a driven body that goes into what cannot give way: that is told, once, with the time. One that slides along
+// Nothing stops a kinematic body that goes into what cannot give way: that is told, once, with the time. One that slides along
 // such a body, as on a floor, goes into nothing.
-TEST(Driven, IntoWhatCannotGiveWayIsTold) {
+TEST(KinematicBody, IntoWhatCannotGiveWayIsTold) {
   Simulation s(
       "step: {dt: 0.01, duration: 1}\nenvelope: 5.0e-4\nshapes:\n  box: {box: {size: [1, 1, 1]}, mass: 2}\n"
       "  floor: {box: {size: [10, 10, 1]}}\n  plate: {box: {size: [0.001, 1, 1]}}\nbodies:\n"
@@ -68,27 +68,27 @@ TEST(Driven, IntoWhatCannotGiveWayIsTold) {
       "  - {shape: box, kinematic: true, position: [4, 0, 10], velocity: [0, 0, -500]}\n",
       1 / 60.0);
   struct Told {
-    int driven, other;
+    int kinematic, other;
     double time;
   };
   std::vector<Told> told;
   for (int frame = 0; frame < 150; ++frame) {
     s.run(1 / 60.0);
     for (const auto& clash : s.last.clashes)
-      told.push_back({clash.driven, clash.other, frame / 60.0 + clash.time});
+      told.push_back({clash.kinematic, clash.other, frame / 60.0 + clash.time});
   }
   ASSERT_EQ(told.size(), 2U);
-  EXPECT_EQ(told[0].driven, 3);
+  EXPECT_EQ(told[0].kinematic, 3);
   EXPECT_EQ(told[0].other, 1) << "within one frame it is through";
   EXPECT_NEAR(told[0].time, 9.5 / 500, 1e-6);
-  EXPECT_EQ(told[1].driven, 0);
+  EXPECT_EQ(told[1].kinematic, 0);
   EXPECT_EQ(told[1].other, 2);
   EXPECT_NEAR(told[1].time, 1.0095, 1e-5);
 }
 
 // Times are those of the frame, though a row of a path cuts it in parts.
-TEST(Driven, IsToldInTimeOfTheFrame) {
-  const auto file = scratch("driven") / "path.csv";
+TEST(KinematicBody, IsToldInTimeOfTheFrame) {
+  const auto file = scratch("kinematic") / "path.csv";
   std::ofstream(file)
       << "t,px,py,pz,qw,qx,qy,qz\n0,0,0,0,1,0,0,0\n0.505,0,0,0,1,0,0,0\n1.505,1,0,0,1,0,0,0\n";
   Simulation s(

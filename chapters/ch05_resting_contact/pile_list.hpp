@@ -1,4 +1,4 @@
-// Which bodies belong to which crowd, in a frame.
+// Which bodies belong to which pile, in a frame.
 #pragma once
 
 #include <limits>
@@ -7,26 +7,26 @@
 
 namespace fc::resting {
 
-class CrowdList {
+class PileList {
  public:
-  struct Crowd {
+  struct Pile {
     std::vector<int> bodies;                                  // in order
     double length = std::numeric_limits<double>::infinity();  // s, of its next plan at most
     bool done = false;                                        // in this instant
     bool jammed = false;  // between what does not move: shorter plans do not help
   };
-  // A frame begins, with these crowds.
+  // A frame begins, with these piles.
   void begin(std::size_t bodies, std::vector<std::vector<int>> found);
   void begin_instant();
-  const std::vector<int>& crowd_of() const { return crowd_of_; }  // of each body, or -1
+  const std::vector<int>& pile_of() const { return pile_of_; }  // of each body, or -1
   // The body's, or nothing. Valid until bodies are united.
-  Crowd* of(int body);
-  // One crowd of these bodies, and of all that are in a crowd with one of them.
+  Pile* of(int body);
+  // One pile of these bodies, and of all that are in a pile with one of them.
   void unite(std::span<const int> bodies);
 
  private:
-  std::vector<Crowd> crowds_;
-  std::vector<int> crowd_of_;
+  std::vector<Pile> piles_;
+  std::vector<int> pile_of_;
 };
 
 }  // namespace fc::resting

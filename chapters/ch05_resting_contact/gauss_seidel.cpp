@@ -1,4 +1,4 @@
-#include "ch05_resting_contact/sweeps.hpp"
+#include "ch05_resting_contact/gauss_seidel.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +23,7 @@ double along(const Vec3& normal, const Vec3& arm_a, const Vec3& arm_b, const Twi
 
 }  // namespace
 
-void Sweeps::clear() {
+void GaussSeidel::clear() {
   rows_.clear();
   lines_.clear();
   arms_.clear();
@@ -33,7 +33,7 @@ void Sweeps::clear() {
   states_.clear();
 }
 
-void Sweeps::add_body(const RigidBody& body, const Twist& velocity, const Twist& path) {
+void GaussSeidel::add_body(const RigidBody& body, const Twist& velocity, const Twist& path) {
   Mass mass{body.position, body.inverse_mass * body.free_moves,
             std::sqrt(body.inverse_mass) * body.free_moves, Mat3::Zero(), Mat3::Zero()};
   if (!body.is_static()) {
@@ -46,7 +46,8 @@ void Sweeps::add_body(const RigidBody& body, const Twist& velocity, const Twist&
   states_.push_back({Vec8::Zero(), Vec8::Zero()});
 }
 
-int Sweeps::add(const lcp::Contact& c, double allowed, double room, double impulse, double correction) {
+int GaussSeidel::add(const lcp::Contact& c, double approach_limit, double room, double impulse,
+                     double correction) {
   const Mass &a = masses_[at(c.body_a)], &b = masses_[at(c.body_b)];
   Arms arms{c.normal, Vec3::Zero(), Vec3::Zero()};
   if (c.turns_a) arms.a = (c.point - a.place).cross(c.normal);
@@ -67,7 +68,7 @@ int Sweeps::add(const lcp::Contact& c, double allowed, double room, double impul
   const double path_start = start(paths_);
   rows_.push_back({c.body_a, c.body_b, static_cast<float>(impulse * root),
                    static_cast<float>(correction * root),
-                   static_cast<float>((start(velocities_) + allowed) / root),
+                   static_cast<float>((start(velocities_) + approach_limit) / root),
                    static_cast<float>((path_start + room) / root), static_cast<float>(root),
                    static_cast<float>(path_start / root)});
   lines_.push_back({end(move_a, turn_a), end(move_b, turn_b)});
@@ -77,13 +78,13 @@ int Sweeps::add(const lcp::Contact& c, double allowed, double room, double impul
 
 // ANCHOR: sweep
 template <bool kVelocities, bool kPaths>
-void Sweeps::sweep() {
+void GaussSeidel::sweep() {
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     Row& row = rows_[r];
     const Line& line = lines_[r];
     State &a = states_[at(row.a)], &b = states_[at(row.b)];
     if constexpr (kVelocities) {
-      const float w = (line.a * a.velocity + line.b * b.velocity).sum() + row.allowed;
+      const float w = (line.a * a.velocity + line.b * b.velocity).sum() + row.approach_limit;
       const float push = std::max(-row.impulse, -w);
       row.impulse += push;
       a.velocity += push * line.a;
@@ -100,7 +101,7 @@ void Sweeps::sweep() {
 }
 // ANCHOR_END: sweep
 
-void Sweeps::apply_guesses() {
+void GaussSeidel::apply_guesses() {
   for (State& state : states_) state = {Vec8::Zero(), Vec8::Zero()};
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     const Row& row = rows_[r];
@@ -112,24 +113,24 @@ void Sweeps::apply_guesses() {
   }
 }
 
-// Impulses change the kinetic energy by z'J v_0 + z'A z / 2 <= z'(b + w) / 2, since z'allowed >= 0. Each step of a sweep lowers
-// that, so it is <= 0 but for guesses.
-bool Sweeps::gains() const {
+// Impulses change the kinetic energy by z'J v_0 + z'A z / 2 <= z'(b + w) / 2, since z'approach_limit >= 0. Each step of a sweep
+// lowers that, so it is <= 0 but for guesses.
+bool GaussSeidel::gains() const {
   double sum = 0, size = 0;
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     const Row& row = rows_[r];
     if (!(row.impulse > 0)) continue;
     const State &a = states_[at(row.a)], &b = states_[at(row.b)];
-    const float w = (lines_[r].a * a.velocity + lines_[r].b * b.velocity).sum() + row.allowed;
-    sum += static_cast<double>(row.impulse) * static_cast<double>(row.allowed + w);
-    size += static_cast<double>(row.impulse) * static_cast<double>(std::abs(row.allowed));
+    const float w = (lines_[r].a * a.velocity + lines_[r].b * b.velocity).sum() + row.approach_limit;
+    sum += static_cast<double>(row.impulse) * static_cast<double>(row.approach_limit + w);
+    size += static_cast<double>(row.impulse) * static_cast<double>(std::abs(row.approach_limit));
   }
   constexpr double kRounding = 1e-6;  // of single precision
   return sum > kRounding * size;
 }
 
 template <bool kVelocities, bool kPaths>
-int Sweeps::run(int sweeps) {
+int GaussSeidel::run(int sweeps) {
   constexpr int kMore = 4, kMostTimes = 5;
   int count = 0;
   const auto go_on = [&](int more) {
@@ -150,36 +151,36 @@ int Sweeps::run(int sweeps) {
   return count;
 }
 
-template int Sweeps::run<true, true>(int);
-template int Sweeps::run<true, false>(int);
-template int Sweeps::run<false, true>(int);
+template int GaussSeidel::run<true, true>(int);
+template int GaussSeidel::run<true, false>(int);
+template int GaussSeidel::run<false, true>(int);
 
-void Sweeps::set_room(int row, double room) {
+void GaussSeidel::set_room(int row, double room) {
   Row& r = rows_[at(row)];
   r.room = r.path_start + static_cast<float>(room) / r.root;
 }
 
-void Sweeps::drop(int row) {
+void GaussSeidel::drop(int row) {
   Row& r = rows_[at(row)];
   states_[at(r.a)].velocity -= r.impulse * lines_[at(row)].a;
   states_[at(r.b)].velocity -= r.impulse * lines_[at(row)].b;
   r.impulse = 0;
-  r.allowed = kNever;
+  r.approach_limit = kNever;
 }
 
-double Sweeps::start_speed(int row) const {
+double GaussSeidel::start_speed(int row) const {
   const Arms& arms = arms_[at(row)];
   return along(arms.normal, arms.a, arms.b, velocities_[at(of_row(row).a)], velocities_[at(of_row(row).b)]);
 }
 
-double Sweeps::path_speed(int row) const {
+double GaussSeidel::path_speed(int row) const {
   const Row& r = rows_[at(row)];
   const Line& line = lines_[at(row)];
   return static_cast<double>(
       ((line.a * states_[at(r.a)].path + line.b * states_[at(r.b)].path).sum() + r.path_start) * r.root);
 }
 
-void Sweeps::work_out(std::vector<Twist>& velocities, std::vector<Twist>& paths) const {
+void GaussSeidel::work_out(std::vector<Twist>& velocities, std::vector<Twist>& paths) const {
   std::vector<Twist>* const results[] = {&velocities, &paths};
   for (const bool is_path : {false, true}) {
     std::vector<Twist>& result = *results[is_path];
@@ -202,14 +203,14 @@ void Sweeps::work_out(std::vector<Twist>& velocities, std::vector<Twist>& paths)
   }
 }
 
-double Sweeps::residual() const {
+double GaussSeidel::residual() const {
   float worst = 0, largest = 0;
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     const Row& row = rows_[r];
     const float w =
         (lines_[r].a * states_[at(row.a)].velocity + lines_[r].b * states_[at(row.b)].velocity).sum() +
-        row.allowed;
-    if (row.allowed < kNever) largest = std::max(largest, std::abs(row.allowed));
+        row.approach_limit;
+    if (row.approach_limit < kNever) largest = std::max(largest, std::abs(row.approach_limit));
     worst = std::max(worst, std::abs(std::min(row.impulse, w)));
   }
   return largest > 0 ? static_cast<double>(worst / largest) : 0;

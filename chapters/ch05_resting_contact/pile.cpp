@@ -1,4 +1,4 @@
-#include "ch05_resting_contact/crowd.hpp"
+#include "ch05_resting_contact/pile.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,18 +9,18 @@ namespace fc::resting {
 namespace {
 
 // A path is clear if its gap stays above this part of the margin, or half of what it was.
-constexpr double kFloor = 1.0 / 64;
+constexpr double kPathFloor = 1.0 / 64;
 
-// The largest part of their kinetic energy that a crowd's plans may add to it in a frame.
+// The largest part of their kinetic energy that a pile's plans may add to it in a frame.
 constexpr double kMostGained = 0.01;
 
 // Pairs of nodes that are looked at in one proof.
-constexpr std::int64_t kMostPairs = 50'000;
+constexpr std::int64_t kMostNodePairs = 50'000;
 
 // Of the time until two come near: so far they go. And what is less than this share is nothing.
 constexpr double kOfFree = 0.9, kLeastShare = 1e-3;
 
-// Finds shares of the paths of a crowd with which nobody is in anybody's way.
+// Finds shares of the paths of a pile with which no body is in the way of another.
 class Shortening {
  public:
   Shortening(const world::World& world, Courses& courses, std::vector<double>& shares,
@@ -60,16 +60,16 @@ class Shortening {
         }
       }
     }
-    for (int i = 0; i < static_cast<int>(shares_.size()); ++i) courses_.tracks[at(i)] = scaled(i);
+    for (int i = 0; i < static_cast<int>(shares_.size()); ++i) courses_.paths[at(i)] = scaled(i);
   }
 
  private:
-  Track scaled(int member) const {
-    const Track& track = courses_.tracks[at(member)];
+  Path scaled(int member) const {
+    const Path& path = courses_.paths[at(member)];
     const double share = shares_[at(member)];
-    if (share == 1) return track;
-    return straight_track(courses_.members[at(member)].state, share * track.velocity, share * track.spin,
-                          track.reach, courses_.length());
+    if (share == 1) return path;
+    return straight_path(courses_.members[at(member)].state, share * path.velocity, share * path.spin,
+                         path.reach, courses_.length());
   }
 
   // Lowers the shares of the two until their paths are clear: the larger one first, at most to the smaller; then both alike,
@@ -81,7 +81,7 @@ class Shortening {
     for (;;) {
       const PathVerdict verdict =
           courses_.check(world_, pair, scaled(pair.a), scaled(pair.b),
-                         {.need = floor, .most_pairs = kMostPairs, .by_planes = true});
+                         {.need = floor, .most_pairs = kMostNodePairs, .by_planes = true});
       if (verdict.clear) return;
       const double part = kOfFree * verdict.time / courses_.length();
       const auto lower = [&](double share, double least) {
@@ -97,8 +97,8 @@ class Shortening {
       if (dynamic_a) share_a = lower(share_a, 0);
       if (dynamic_b) share_b = lower(share_b, 0);
       if (share_a != before_a || share_b != before_b) continue;
-      for (const int member : {pair.a, pair.b})  // they stand, and are driven into
-        if (!courses_.members[at(member)].dynamic && courses_.tracks[at(member)].moves)
+      for (const int member : {pair.a, pair.b})  // they stand, and a kinematic body goes into one
+        if (!courses_.members[at(member)].dynamic && courses_.paths[at(member)].moves)
           blocked_.push_back(courses_.members[at(member)].number);
       return;
     }
@@ -113,8 +113,8 @@ class Shortening {
 
 }  // namespace
 
-Planned CrowdPlanner::make(const world::World& world, std::span<const Member> members, double now,
-                           double length, const CrowdOptions& options) {
+Planned PilePlanner::make(const world::World& world, std::span<const Member> members, double now,
+                          double length, const PileOptions& options) {
   options_ = options;
   rows_.clear();
   late_.clear();
@@ -122,7 +122,7 @@ Planned CrowdPlanner::make(const world::World& world, std::span<const Member> me
   blocked_.clear();
   lost_ = 0;
   shortened_ = 0;
-  sweeps_.clear();
+  gauss_seidel_.clear();
   courses_.start(world, members, now, length);
   courses_.find(world, true);
   add_bodies();
@@ -130,10 +130,10 @@ Planned CrowdPlanner::make(const world::World& world, std::span<const Member> me
     const int count = static_cast<int>(courses_.candidates[at(i)].contacts->points.size());
     for (int place = 0; place < count; ++place) add_row(world, i, place, false);
   }
-  swept_ = sweeps_.run(std::max(options_.sweeps, options_.visits / (1 + rows())));
+  swept_ = gauss_seidel_.run(std::max(options_.sweeps, options_.visits / (1 + rows())));
   find_paths(world);
   shares_.assign(courses_.members.size(), 1);
-  Shortening(world, courses_, shares_, blocked_).run(kFloor * contacts_.margin());
+  Shortening(world, courses_, shares_, blocked_).run(kPathFloor * contacts_.margin());
   for (std::size_t i = 0; i < shares_.size(); ++i) {
     if (shares_[i] == 1) continue;
     ++shortened_;
@@ -143,7 +143,7 @@ Planned CrowdPlanner::make(const world::World& world, std::span<const Member> me
   return take(world);
 }
 
-double CrowdPlanner::smallest_gap() const {
+double PilePlanner::smallest_gap() const {
   double gap = std::numeric_limits<double>::infinity();
   for (const Candidate& pair : courses_.candidates)
     if (pair.contacts->gap <= contacts_.margin()) gap = std::min(gap, pair.contacts->gap);
@@ -151,17 +151,17 @@ double CrowdPlanner::smallest_gap() const {
 }
 
 // Members that the sweeps have not heard of.
-void CrowdPlanner::add_bodies() {
-  for (std::size_t i = at(sweeps_.bodies()); i < courses_.members.size(); ++i) {
+void PilePlanner::add_bodies() {
+  for (std::size_t i = at(gauss_seidel_.bodies()); i < courses_.members.size(); ++i) {
     const Twist &mean = courses_.drift[i], &more = courses_.last[i];
-    sweeps_.add_body(courses_.members[i].state, {mean.linear + more.linear, mean.angular + more.angular},
-                     mean);
+    gauss_seidel_.add_body(courses_.members[i].state,
+                           {mean.linear + more.linear, mean.angular + more.angular}, mean);
   }
 }
 
-lcp::Contact CrowdPlanner::contact_of(const world::World& world, const Row& row) const {
+lcp::Contact PilePlanner::contact_of(const world::World& world, const Row& row) const {
   const Candidate& pair = courses_.candidates[at(row.pair)];
-  const Pose &a = courses_.tracks[at(pair.a)].start, &b = courses_.tracks[at(pair.b)].start;
+  const Pose &a = courses_.paths[at(pair.a)].start, &b = courses_.paths[at(pair.b)].start;
   const ContactPoint& point = point_of(row);
   return {pair.a,
           pair.b,
@@ -173,7 +173,7 @@ lcp::Contact CrowdPlanner::contact_of(const world::World& world, const Row& row)
           world.turns(courses_.members[at(pair.b)].number)};
 }
 
-int CrowdPlanner::add_row(const world::World& world, int candidate, int place, bool late) {
+int PilePlanner::add_row(const world::World& world, int candidate, int place, bool late) {
   first_row_.resize(courses_.candidates.size(), -1);
   Row row{candidate, place, first_row_[at(candidate)], 0, late, late};
   const lcp::Contact contact = contact_of(world, row);
@@ -181,39 +181,39 @@ int CrowdPlanner::add_row(const world::World& world, int candidate, int place, b
   row.arrives = late || contact.gap > margin;
   const double guess = late ? 0 : point_of(row).force * length;
   const int number =
-      sweeps_.add(contact, std::max(0.0, contact.gap - 0.5 * margin) / length,
-                  (contact.gap - wanted_gap(contact.gap, margin)) / length, guess, 0.5 * guess);
-  row.before = sweeps_.start_speed(number);
+      gauss_seidel_.add(contact, std::max(0.0, contact.gap - 0.5 * margin) / length,
+                        (contact.gap - wanted_gap(contact.gap, margin)) / length, guess, 0.5 * guess);
+  row.before = gauss_seidel_.start_speed(number);
   first_row_[at(candidate)] = number;
   rows_.push_back(row);
   return number;
 }
 
 // Step 2.
-void CrowdPlanner::find_paths(const world::World& world) {
-  const double floor = kFloor * contacts_.margin();
+void PilePlanner::find_paths(const world::World& world) {
+  const double floor = kPathFloor * contacts_.margin();
   for (int round = 0;; ++round) {
-    sweeps_.work_out(velocities_, paths_);
+    gauss_seidel_.work_out(velocities_, paths_);
     for (std::size_t i = 0; i < paths_.size(); ++i) courses_.go(static_cast<int>(i), paths_[i]);
     courses_.find(world, true);
     add_bodies();
-    const PathOptions options{.need = floor, .most_pairs = kMostPairs, .by_planes = true, .whole = true};
+    const PathOptions options{.need = floor, .most_pairs = kMostNodePairs, .by_planes = true, .whole = true};
     const bool clear = courses_.prove(world, [&](const Candidate&) { return options; });
     if (clear || round == options_.rounds) return;
     for (int i = 0; i < static_cast<int>(courses_.candidates.size()); ++i)
       if (!courses_.candidates[at(i)].clear) look_again(world, i);
-    swept_ += sweeps_.run(std::max(options_.path_sweeps, options_.visits / (1 + rows())));
+    swept_ += gauss_seidel_.run(std::max(options_.path_sweeps, options_.visits / (1 + rows())));
   }
 }
 
 // Rows of a pair whose paths are not clear: with the gaps at the end as they will be, and with all points that it has there.
-void CrowdPlanner::look_again(const world::World& world, int candidate) {
+void PilePlanner::look_again(const world::World& world, int candidate) {
   const Candidate pair = courses_.candidates[at(candidate)];
-  const Track &a = courses_.tracks[at(pair.a)], &b = courses_.tracks[at(pair.b)];
+  const Path &a = courses_.paths[at(pair.a)], &b = courses_.paths[at(pair.b)];
   const double rest = 0.5 * contacts_.margin();
   const auto correct = [&](int row) {
     const double gap = point_of(rows_[at(row)]).gap_at(a.end, b.end);
-    sweeps_.set_room(row, (gap - rest) / courses_.length() - sweeps_.path_speed(row));
+    gauss_seidel_.set_room(row, (gap - rest) / courses_.length() - gauss_seidel_.path_speed(row));
   };
   first_row_.resize(courses_.candidates.size(), -1);
   for (int row = first_row_[at(candidate)]; row >= 0; row = rows_[at(row)].next) correct(row);
@@ -229,37 +229,36 @@ void CrowdPlanner::look_again(const world::World& world, int candidate) {
 }
 
 // An impulse at the end of a path needs a contact there.
-void CrowdPlanner::drop_what_acts_on_air() {
+void PilePlanner::drop_what_acts_on_air() {
   constexpr int kMostTimes = 3, kSweeps = 4;
   for (int times = 0; times < kMostTimes; ++times) {
     bool any = false;
     for (int i = 0; i < rows(); ++i) {
       const Row& row = rows_[at(i)];
-      if (!row.arrives || !(sweeps_.impulse(i) > 0)) continue;
+      if (!row.arrives || !(gauss_seidel_.impulse(i) > 0)) continue;
       const Candidate& pair = courses_.candidates[at(row.pair)];
-      const double gap =
-          point_of(row).gap_at(courses_.tracks[at(pair.a)].end, courses_.tracks[at(pair.b)].end);
+      const double gap = point_of(row).gap_at(courses_.paths[at(pair.a)].end, courses_.paths[at(pair.b)].end);
       if (gap <= contacts_.margin()) continue;
-      sweeps_.drop(i);
+      gauss_seidel_.drop(i);
       any = true;
     }
     if (!any) break;
-    if (times + 1 < kMostTimes) swept_ += sweeps_.run_velocities(kSweeps);
+    if (times + 1 < kMostTimes) swept_ += gauss_seidel_.run_velocities(kSweeps);
   }
   std::vector<Twist> paths;
-  sweeps_.work_out(velocities_, paths);
+  gauss_seidel_.work_out(velocities_, paths);
 }
 
 // What bounces gives back what its restitution says, with the largest factor <= 1 for all with which this takes no more energy
 // than the impulses gave (see impact_law.hpp).
-void CrowdPlanner::give_back(const world::World& world, std::vector<RigidBody>& bodies) {
+void PilePlanner::give_back(const world::World& world, std::vector<RigidBody>& bodies) {
   back_.assign(rows_.size(), 0);
   bool any = false;
   for (int i = 0; i < rows(); ++i) {
     const Row& row = rows_[at(i)];
     const PairContacts& pair = *courses_.candidates[at(row.pair)].contacts;
     if (row.before >= -contacts_.margin() / options_.frame || point_of(row).lasts) continue;
-    back_[at(i)] = sweeps_.impulse(i) * world.restitution_of(pair.a, pair.b);
+    back_[at(i)] = gauss_seidel_.impulse(i) * world.restitution_of(pair.a, pair.b);
     any = any || back_[at(i)] > 0;
   }
   if (!any) return;
@@ -268,7 +267,7 @@ void CrowdPlanner::give_back(const world::World& world, std::vector<RigidBody>& 
     if (back_[at(i)] > 0) lcp::apply_impulse(bounced, contact_of(world, rows_[at(i)]), back_[at(i)]);
   double gave = 0, takes = 0;  // z'Az and r'Ar, by what the impulses do to the velocities
   for (int i = 0; i < rows(); ++i) {
-    const double z = sweeps_.impulse(i);
+    const double z = gauss_seidel_.impulse(i);
     if (!(z > 0)) continue;
     const lcp::Contact contact = contact_of(world, rows_[at(i)]);
     const double end = lcp::contact_velocity(bodies, contact);
@@ -283,21 +282,21 @@ void CrowdPlanner::give_back(const world::World& world, std::vector<RigidBody>& 
 }
 
 // For the next plan's guess; and which contacts last: where something pushes, all points.
-void CrowdPlanner::remember() const {
+void PilePlanner::remember() const {
   std::vector<char> pushes(courses_.candidates.size(), 0);
   for (int i = 0; i < rows(); ++i)
-    pushes[at(rows_[at(i)].pair)] |= sweeps_.impulse(i) > 0 && !rows_[at(i)].arrives;
+    pushes[at(rows_[at(i)].pair)] |= gauss_seidel_.impulse(i) > 0 && !rows_[at(i)].arrives;
   for (int i = 0; i < rows(); ++i) {
     const Row& row = rows_[at(i)];
     if (row.late) continue;
     ContactPoint& point = courses_.candidates[at(row.pair)].contacts->points[at(row.place)];
-    point.force = sweeps_.impulse(i) / courses_.length();
+    point.force = gauss_seidel_.impulse(i) / courses_.length();
     point.lasts = pushes[at(row.pair)] && !row.arrives;
   }
 }
 
 // All impulses act at the end.
-Planned CrowdPlanner::take(const world::World& world) {
+Planned PilePlanner::take(const world::World& world) {
   const std::vector<RigidBody> swept = courses_.with(velocities_);
   std::vector<RigidBody> bounced = swept;
   give_back(world, bounced);
@@ -306,14 +305,15 @@ Planned CrowdPlanner::take(const world::World& world) {
   for (int i = 0; i < rows(); ++i) {
     const Row& row = rows_[at(i)];
     const Candidate& pair = courses_.candidates[at(row.pair)];
-    const double z = sweeps_.impulse(i);
+    const double z = gauss_seidel_.impulse(i);
     if (!(z > 0)) continue;
     ++result.pushing;
-    const bool driven = world.carries(pair.contacts->a) || world.carries(pair.contacts->b);
-    if (!driven && !options_.told) continue;
+    const bool kinematic =
+        world.is_moving_kinematic(pair.contacts->a) || world.is_moving_kinematic(pair.contacts->b);
+    if (!kinematic && !options_.told) continue;
     PlannedRow told;
     told.contact = contact_of(world, row);
-    if (driven) result.kinematic_work += lcp::kinematic_work(swept, told.contact, z + back_[at(i)]);
+    if (kinematic) result.kinematic_work += lcp::kinematic_work(swept, told.contact, z + back_[at(i)]);
     if (!options_.told) continue;
     told.impulse = z;
     told.back = back_[at(i)];
@@ -322,7 +322,7 @@ Planned CrowdPlanner::take(const world::World& world) {
     told.key = point_of(row).key;
     told.arrives = row.arrives;
     if (row.arrives) {
-      const Track &a = courses_.tracks[at(pair.a)], &b = courses_.tracks[at(pair.b)];
+      const Path &a = courses_.paths[at(pair.a)], &b = courses_.paths[at(pair.b)];
       told.contact.gap = point_of(row).gap_at(a.end, b.end);
       told.contact.point = point_of(row).middle(a.end, b.end);
     }
@@ -334,18 +334,18 @@ Planned CrowdPlanner::take(const world::World& world) {
   for (std::size_t i = 0; i < swept.size(); ++i) {
     const Member& member = courses_.members[i];
     if (!member.dynamic) continue;
-    const Track& track = courses_.tracks[i];
+    const Path& path = courses_.paths[i];
     const Twist free{courses_.drift[i].linear + courses_.last[i].linear,
                      courses_.drift[i].angular + courses_.last[i].angular};
     const double share = shares_[i];  // of what it has at the end, too
     result.bodies.push_back(member.number);
-    result.courses.push_back(course_of(member, {track.velocity, track.spin}, free, courses_.length()));
+    result.motions.push_back(planned_motion(member, {path.velocity, path.spin}, free, courses_.length()));
     result.arrivals.push_back(
         {share * bounced[i].velocity - free.linear, share * bounced[i].spin - free.angular});
     const double before = member.state.kinetic_energy(), slow = contacts_.margin() / courses_.length();
     gained += share * share * bounced[i].kinetic_energy() - before;
     if (world.effects.gravity)
-      gained -= member.state.mass * world.effects.gravity->dot(track.end.position - track.start.position);
+      gained -= member.state.mass * world.effects.gravity->dot(path.end.position - path.start.position);
     size += before + 0.5 * member.state.mass * slow * slow;
   }
   gains_ = gained > kMostGained * size * courses_.length() / options_.frame;

@@ -1,4 +1,4 @@
-#include "ch05_resting_contact/driven.hpp"
+#include "ch05_resting_contact/kinematic_watch.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -12,33 +12,33 @@ namespace {
 // s, or nothing if the two keep apart.
 std::optional<double> clash(const world::World& world, Contacts& contacts, int a, int b, double dt) {
   PairContacts& pair = contacts.pair(a, b);
-  const Track track_a = track_of(world, pair.a, 0, dt), track_b = track_of(world, pair.b, 0, dt);
-  const double way = dt * ((track_b.velocity - track_a.velocity).norm() +
-                           0.5 * dt * (track_b.acceleration - track_a.acceleration).norm());
-  if ((track_b.start.position - track_a.start.position).norm() > track_a.reach + track_b.reach + way)
+  const Path path_a = path_of(world, pair.a, 0, dt), path_b = path_of(world, pair.b, 0, dt);
+  const double distance = dt * ((path_b.velocity - path_a.velocity).norm() +
+                                0.5 * dt * (path_b.acceleration - path_a.acceleration).norm());
+  if ((path_b.start.position - path_a.start.position).norm() > path_a.reach + path_b.reach + distance)
     return {};
-  contacts.update(world, pair, track_a.start, track_b.start);
+  contacts.update(world, pair, path_a.start, path_b.start);
   if (pair.gap > world.tolerance) {
     const PathVerdict verdict =
-        check_path(world, contacts, pair, track_a, track_b, dt, {.need = 0.5 * world.tolerance});
+        check_path(world, contacts, pair, path_a, path_b, dt, {.need = 0.5 * world.tolerance});
     if (verdict.clear) return {};
     return verdict.time;
   }
   if (!Contacts::convex(world, pair) || !pair.axis_known) return {};
-  const double end = contacts.axis_gap(world, pair, track_a.end, track_b.end);
+  const double end = contacts.axis_gap(world, pair, path_a.end, path_b.end);
   if (end > std::min(0.0, pair.gap) - world.tolerance) return {};
   return 0.0;
 }
 
 }  // namespace
 
-std::vector<Clash> DrivenWatch::look(const world::World& world, Contacts& contacts, double dt) {
+std::vector<Clash> KinematicWatch::look(const world::World& world, Contacts& contacts, double dt) {
   std::vector<Clash> clashes;
   const int count = static_cast<int>(world.bodies.size());
   for (int a = 0; a < count; ++a) {
-    if (!world.carries(a)) continue;
+    if (!world.is_moving_kinematic(a)) continue;
     for (int b = 0; b < count; ++b) {
-      if (b == a || world.yields(b) || (world.carries(b) && b < a)) continue;
+      if (b == a || world.is_dynamic(b) || (world.is_moving_kinematic(b) && b < a)) continue;
       if (world::is_sensor_pair(world, a, b) || told_.contains({a, b})) continue;
       const std::optional<double> time = clash(world, contacts, a, b, dt);
       if (!time) continue;

@@ -1,4 +1,4 @@
-// A driven body that goes into a static one, or into another driven one: nothing stops it, so the program has to say so.
+// A kinematic body that goes into a static one, or into another kinematic one: nothing stops it, so the program has to say so.
 #pragma once
 
 #include <set>
@@ -9,13 +9,13 @@
 
 namespace fc::resting {
 
-// A driven body runs into one that cannot give way either.
+// A kinematic body runs into one that cannot give way either.
 struct Clash {
-  int driven, other;  // by their numbers in the world
-  double time;        // s, from when look() looks on
+  int kinematic, other;  // by their numbers in the world
+  double time;           // s, from when look() looks on
 };
 
-class DrivenWatch {
+class KinematicWatch {
  public:
   // The clashes of the next dt seconds, each pair only the first time. A pair that touches at the start clashes if its overlap
   // grows by more than the tolerance; a pair with a mesh that touches at the start is not looked at.

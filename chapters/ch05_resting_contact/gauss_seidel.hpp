@@ -10,20 +10,20 @@
 namespace fc::resting {
 
 // What contacts do to the velocities of bodies, and to the velocities with which they go on their paths:
-//   velocities  w = J v + allowed >= 0,  z'w = 0,  v = v_0 + M^-1 J' z    (m/s, N s)
+//   velocities  w = J v + approach_limit >= 0,  z'w = 0,  v = v_0 + M^-1 J' z    (m/s, N s)
 //   paths       u = J y + room    >= 0,  c'u = 0,  y = y_0 + M^-1 J' c    (m/s, N s)
 // One sweep looks at each row once, for both: the second hides in the time that the first waits for its numbers.
 //
-// Sweeps do not see J and M. With M^-1 = L L' (L lower triangular for the turning part) and D the diagonal of J M^-1 J', they work
+// It does not see J and M. With M^-1 = L L' (L lower triangular for the turning part) and D the diagonal of J M^-1 J', it works
 // on the lines of G = D^-1/2 J L, and on what D^1/2 z does to L^-1 v. So a line both tells how fast its contact closes in and how an
 // impulse moves its bodies, it is of length one, and fits a cache line in single precision. What is told is worked out in double.
-class Sweeps {
+class GaussSeidel {
  public:
   void clear();
   // A body as it is when the impulses act, its v_0 and y_0.
   void add_body(const RigidBody& body, const Twist& velocity, const Twist& path);
   // A row, of bodies by their numbers here; returns its own. m/s, and guesses in N s, which only count before run().
-  int add(const lcp::Contact& contact, double allowed, double room, double impulse, double correction);
+  int add(const lcp::Contact& contact, double approach_limit, double room, double impulse, double correction);
   int rows() const { return static_cast<int>(rows_.size()); }
   int bodies() const { return static_cast<int>(masses_.size()); }
 
@@ -57,10 +57,10 @@ class Sweeps {
   };
   struct Row {
     int a, b;
-    float impulse, correction;  // D^1/2 z, D^1/2 c
-    float allowed, room;        // D^-1/2 (J v_0 + allowed), D^-1/2 (J y_0 + room)
-    float root;                 // D^1/2, kg^-1/2
-    float path_start;           // D^-1/2 J y_0
+    float impulse, correction;   // D^1/2 z, D^1/2 c
+    float approach_limit, room;  // D^-1/2 (J v_0 + approach_limit), D^-1/2 (J y_0 + room)
+    float root;                  // D^1/2, kg^-1/2
+    float path_start;            // D^-1/2 J y_0
   };
   struct Arms {
     Vec3 normal, a, b;  // m: r x n

@@ -1,0 +1,43 @@
+#include "ch05_resting_contact/pile_list.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace fc::resting {
+
+void PileList::begin(std::size_t bodies, std::vector<std::vector<int>> found) {
+  piles_.clear();
+  pile_of_.assign(bodies, -1);
+  for (const std::vector<int>& pile : found) unite(pile);
+}
+
+void PileList::begin_instant() {
+  for (Pile& pile : piles_) pile.done = false;
+}
+
+PileList::Pile* PileList::of(int body) {
+  const int pile = pile_of_[static_cast<std::size_t>(body)];
+  return pile < 0 ? nullptr : &piles_[static_cast<std::size_t>(pile)];
+}
+
+void PileList::unite(std::span<const int> bodies) {
+  int number = -1;
+  for (const int body : bodies) number = std::max(number, pile_of_[static_cast<std::size_t>(body)]);
+  if (number < 0) {
+    number = static_cast<int>(piles_.size());
+    piles_.emplace_back();
+  }
+  Pile& pile = piles_[static_cast<std::size_t>(number)];
+  for (const int body : bodies) {
+    const int other = pile_of_[static_cast<std::size_t>(body)];
+    if (other == number) continue;
+    std::vector<int> joining = {body};
+    if (other >= 0) joining = std::exchange(piles_[static_cast<std::size_t>(other)].bodies, {});
+    for (const int joins : joining) pile_of_[static_cast<std::size_t>(joins)] = number;
+    pile.bodies.insert(pile.bodies.end(), joining.begin(), joining.end());
+  }
+  std::sort(pile.bodies.begin(), pile.bodies.end());
+  pile.done = false;
+}
+
+}  // namespace fc::resting
