@@ -1,0 +1,189 @@
+#include "ch06_friction/contact_sweeps.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ch06_friction/cone.hpp"
+
+namespace fc::friction {
+namespace {
+
+// After so many sweeps without progress impulses go but a part of their way; not less than the second.
+constexpr int kWatch = 50;
+constexpr double kProgress = 0.9, kLeastRelaxation = 1.0 / 16;
+
+// Two tangents, continuous but for normals along one axis. Nothing depends on which: each contact is solved exactly.
+Mat3 frame_of(const Vec3& normal) {
+  Mat3 frame;
+  frame.col(0) = normal;
+  frame.col(1) = (std::abs(normal.x()) < 0.6 ? Vec3::UnitX() : Vec3::UnitY()).cross(normal).normalized();
+  frame.col(2) = normal.cross(frame.col(1));
+  return frame;
+}
+
+Mat3 cross_matrix(const Vec3& v) {
+  Mat3 m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
+}
+
+// Friction against d with the blocks' D, of at most `radius`: r_T = -(D + x I)^-1 d, x >= 0 the least with |r_T| <= radius.
+Eigen::Vector2d disc_friction(const Eigen::Matrix2d& D, const Eigen::Vector2d& d, double radius) {
+  constexpr int kMost = 60;
+  if (!(radius > 0)) return Eigen::Vector2d::Zero();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(D);
+  const Eigen::Vector2d along = eigen.eigenvectors().transpose() * d, delta = eigen.eigenvalues().cwiseMax(0);
+  const auto at = [&](double x) -> Eigen::Vector2d { return -along.cwiseQuotient(delta + Eigen::Vector2d::Constant(x)); };
+  if (delta[0] > 0 && at(0).norm() <= radius) return eigen.eigenvectors() * at(0);
+  double low = 0, high = along.norm() / radius;  // at(high) is short enough
+  for (int i = 0; i < kMost; ++i) {
+    const double middle = 0.5 * (low + high);
+    (at(middle).norm() > radius ? low : high) = middle;
+  }
+  const Eigen::Vector2d r = at(high);
+  return eigen.eigenvectors() * r;
+}
+
+}  // namespace
+
+void ContactSweeps::start(std::span<const RigidBody> bodies) {
+  blocks_.clear();
+  bodies_.clear();
+  for (const RigidBody& body : bodies)
+    bodies_.push_back({body.position, body.velocity, body.spin, body.inverse_mass * body.free_moves,
+                       body.is_static() ? Mat3(Mat3::Zero()) : body.inverse_inertia_world()});
+}
+
+void ContactSweeps::add(const lcp::Contact& contact, double mu, double limit, const Vec3& impulse) {
+  const Mass &a = bodies_[index(contact.body_a)], &b = bodies_[index(contact.body_b)];
+  const Mat3 frame = frame_of(contact.normal);
+  const Vec3 arm_a = contact.turns_a ? Vec3(contact.point - a.place) : Vec3(Vec3::Zero());
+  const Vec3 arm_b = contact.turns_b ? Vec3(contact.point - b.place) : Vec3(Vec3::Zero());
+  const auto part = [&](const Mass& mass, const Vec3& arm) -> Mat3 {
+    const Mat3 turn = cross_matrix(arm);
+    return Mat3(mass.move.asDiagonal()) - turn * mass.turn * turn;
+  };
+  const Mat3 whole = frame.transpose() * (part(a, arm_a) + part(b, arm_b)) * frame;
+  const Mat3 delassus = 0.5 * (whole + whole.transpose());
+  Block block{contact.body_a, contact.body_b, frame, arm_a, arm_b, delassus, OneContact(delassus, mu), mu, limit, {}, {}};
+  block.start = relative_velocity(block) + Vec3(limit, 0, 0);
+  block.r = project_onto_cone(frame.transpose() * impulse, mu);
+  blocks_.push_back(block);
+}
+
+Vec3 ContactSweeps::relative_velocity(const Block& block) const {
+  const Mass &a = bodies_[index(block.a)], &b = bodies_[index(block.b)];
+  return block.frame.transpose() *
+         (b.velocity + b.spin.cross(block.arm_b) - a.velocity - a.spin.cross(block.arm_a));
+}
+
+Vec3 ContactSweeps::velocity(int contact) const {
+  const Block& block = blocks_[index(contact)];
+  return block.frame * relative_velocity(block);
+}
+
+void ContactSweeps::push(const Block& block, const Vec3& impulse) {
+  const Vec3 p = block.frame * impulse;
+  Mass &a = bodies_[index(block.a)], &b = bodies_[index(block.b)];
+  a.velocity -= a.move.cwiseProduct(p);
+  a.spin -= a.turn * block.arm_a.cross(p);
+  b.velocity += b.move.cwiseProduct(p);
+  b.spin += b.turn * block.arm_b.cross(p);
+}
+
+// All contacts once; the largest change of an impulse, as a velocity (m/s).
+// ANCHOR: sweep
+template <class Solve>
+double ContactSweeps::sweep(bool backwards, double relaxation, const Solve& solve) {
+  double largest = 0;
+  for (int k = 0; k < contacts(); ++k) {
+    const int i = backwards ? contacts() - 1 - k : k;
+    Block& block = blocks_[index(i)];
+    Vec3 q = relative_velocity(block) - block.delassus * block.r;  // u if this contact did nothing
+    q[0] += block.limit;
+    const Vec3 change = relaxation * (solve(i, block, q) - block.r);
+    if (change.isZero(0)) continue;
+    push(block, change);
+    block.r += change;
+    largest = std::max(largest, (block.delassus * change).norm());
+  }
+  return largest;
+}
+// ANCHOR_END: sweep
+
+double ContactSweeps::largest_velocity() const {
+  double largest = 0;
+  for (const Block& block : blocks_) {
+    const Vec3 now = relative_velocity(block) + Vec3(block.limit, 0, 0);
+    largest = std::max({largest, block.start.norm(), (now - block.start).norm()});
+  }
+  return largest;
+}
+
+template <class Solve>
+void ContactSweeps::run(int most, double tolerance, const Solve& solve) {
+  for (const Block& block : blocks_)
+    if (!block.r.isZero(0)) push(block, block.r);
+  double relaxation = 1, best = std::numeric_limits<double>::infinity(), before = best;
+  const double enough = tolerance * largest_velocity();
+  for (int k = 0; k < most; ++k) {
+    const double change = sweep(k % 2 == 1, relaxation, solve) / relaxation;
+    if (change <= enough) return;
+    best = std::min(best, change);
+    if (k % kWatch != kWatch - 1) continue;
+    if (best > kProgress * before) relaxation = std::max(0.5 * relaxation, kLeastRelaxation);
+    before = best;
+  }
+}
+
+double ContactSweeps::run(int most, double tolerance) {
+  run(most, tolerance, [](int, const Block& block, const Vec3& q) { return block.one.solve(q); });
+  return residual();
+}
+
+double ContactSweeps::run_held(std::span<const char> holds, int most, double tolerance) {
+  run(most, tolerance, [&](int i, const Block& block, const Vec3& q) -> Vec3 {
+    const double a = block.delassus(0, 0);
+    if (!holds[index(i)]) return {a > 0 ? std::max(0.0, -q[0] / a) : 0.0, 0, 0};
+    // The tangents' velocity is that at the start, whatever the normal impulse.
+    const Eigen::Vector2d c = block.delassus.block<2, 1>(1, 0);
+    const Eigen::LDLT<Eigen::Matrix2d> D(block.delassus.block<2, 2>(1, 1));
+    const Eigen::Vector2d still = q.tail<2>() - block.start.tail<2>();
+    const double effective = a - c.dot(D.solve(c)), speed = q[0] - c.dot(D.solve(still));
+    const double normal = effective > 1e-12 * a ? std::max(0.0, -speed / effective) : 0.0;
+    const Eigen::Vector2d tangent = -D.solve(still + normal * c);
+    if (!tangent.allFinite()) return {normal, 0, 0};
+    return {normal, tangent[0], tangent[1]};
+  });
+  return 0;
+}
+
+double ContactSweeps::run_discs(std::span<const double> normals, int most, double tolerance) {
+  run(most, tolerance, [&](int i, const Block& block, const Vec3& q) -> Vec3 {
+    const double normal = normals[index(i)];
+    const Eigen::Vector2d d = q.tail<2>() + normal * block.delassus.block<2, 1>(1, 0);
+    const Eigen::Vector2d tangent = disc_friction(block.delassus.block<2, 2>(1, 1), d, block.mu * normal);
+    return {normal, tangent[0], tangent[1]};
+  });
+  return 0;
+}
+
+double ContactSweeps::residual() const {
+  double worst = 0;
+  for (const Block& block : blocks_) {
+    const Vec3 u = relative_velocity(block) + Vec3(block.limit, 0, 0);
+    const double size = block.delassus.cwiseAbs().maxCoeff();
+    if (size > 0) worst = std::max(worst, cone_violation(block.r, u, block.mu, size));
+  }
+  const double largest = largest_velocity();
+  return largest > 0 ? worst / largest : 0;
+}
+
+void ContactSweeps::apply_to(std::span<RigidBody> bodies) const {
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    bodies[i].velocity = bodies_[i].velocity;
+    bodies[i].spin = bodies_[i].spin;
+  }
+}
+
+}  // namespace fc::friction
