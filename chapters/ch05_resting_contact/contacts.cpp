@@ -11,7 +11,7 @@ namespace {
 
 // Parts of the margin: by how much two bodies may have moved against each other before their contacts are
 // searched again; by how much a face's plane may part two bodies less than the best one and still be taken, since its
-// normal is exact; how wide a gap may be at a point of a patch.
+// normal is exact; how wide a gap may be at a point of a manifold.
 constexpr double kSearchAgain = 1.0 / 4, kSlack = 1.0 / 64, kFar = 4;
 
 // Of the margin: with a certified gap below this a pair is searched again, too.
@@ -182,10 +182,10 @@ void Contacts::add(PairContacts& pair, const ContactPoint& point, const std::vec
 double Contacts::search_convex(const world::World& world, PairContacts& pair, const Pose& a, const Pose& b,
                                double reach) {
   const ca::PairPose pose(a, b);
-  const PatchSide side_a{world.model_of(pair.a), face_lists_[at(world.bodies[pair.a].shape)]},
+  const ManifoldSide side_a{world.model_of(pair.a), face_lists_[at(world.bodies[pair.a].shape)]},
       side_b{world.model_of(pair.b), face_lists_[at(world.bodies[pair.b].shape)]};
   const auto slack = [&](double gap) { return std::clamp(0.25 * gap, 0.0, kSlack * margin_); };
-  Patch patch;
+  Manifold manifold;
   ca::GjkResult result;
   bool found = false;
   if (pair.known) {
@@ -194,11 +194,12 @@ double Contacts::search_convex(const world::World& world, PairContacts& pair, co
     result.lower = axis_gap(world, pair, a, b);
     result.status = ca::GjkResult::Status::overlapping;
     if (result.lower > 0 && result.lower <= reach) {
-      find_patch(side_a, side_b, pose, result, slack(result.lower), kFar * margin_ + (reach - margin_),
-                 patch);
-      for (int i = 0; i < patch.count && !found; ++i) {
-        const PatchPoint& point = patch.points[at(i)];
-        found = point.key != PatchPoint::kBroughtTogether && point.gap <= patch.gap + world.tolerance / 16;
+      find_manifold(side_a, side_b, pose, result, slack(result.lower), kFar * margin_ + (reach - margin_),
+                    manifold);
+      for (int i = 0; i < manifold.count && !found; ++i) {
+        const ManifoldPoint& point = manifold.points[at(i)];
+        found =
+            point.key != ManifoldPoint::kBroughtTogether && point.gap <= manifold.gap + world.tolerance / 16;
       }
     }
   }
@@ -219,25 +220,26 @@ double Contacts::search_convex(const world::World& world, PairContacts& pair, co
   const std::vector<ContactPoint> before = std::exchange(pair.points, {});
   if (result.lower > reach) return result.lower;
   if (!found)
-    find_patch(side_a, side_b, pose, result, slack(result.lower), kFar * margin_ + (reach - margin_), patch);
-  pair.axis_gap = patch.gap;
-  pair.of_b = patch.of_b;
-  pair.axis = (patch.of_b ? b : a).rotation.transpose() * patch.normal;
-  for (int i = 0; i < patch.count; ++i) {
-    const PatchPoint& p = patch.points[at(i)];
+    find_manifold(side_a, side_b, pose, result, slack(result.lower), kFar * margin_ + (reach - margin_),
+                  manifold);
+  pair.axis_gap = manifold.gap;
+  pair.of_b = manifold.of_b;
+  pair.axis = (manifold.of_b ? b : a).rotation.transpose() * manifold.normal;
+  for (int i = 0; i < manifold.count; ++i) {
+    const ManifoldPoint& p = manifold.points[at(i)];
     ContactPoint point;
-    point.a = surface_point(world.model_of(pair.a), p.point_a, a.rotation.transpose() * patch.normal);
-    point.b = surface_point(world.model_of(pair.b), p.point_b, -(b.rotation.transpose() * patch.normal));
+    point.a = surface_point(world.model_of(pair.a), p.point_a, a.rotation.transpose() * manifold.normal);
+    point.b = surface_point(world.model_of(pair.b), p.point_b, -(b.rotation.transpose() * manifold.normal));
     // A plane that is no face of B turns with A, but not with a ball.
     const bool ball_a = world.model_of(pair.a).mesh.vertices.size() == 1,
                ball_b = world.model_of(pair.b).mesh.vertices.size() == 1;
     point.balls = ball_a && ball_b;
-    point.of_b = patch.of_b || ball_a;
-    point.local_normal = (point.of_b ? b : a).rotation.transpose() * patch.normal;
+    point.of_b = manifold.of_b || ball_a;
+    point.local_normal = (point.of_b ? b : a).rotation.transpose() * manifold.normal;
     point.key = p.key;
     add(pair, point, before);
   }
-  return std::max(result.lower, patch.gap);
+  return std::max(result.lower, manifold.gap);
 }
 
 double Contacts::search_mesh(const world::World& world, PairContacts& pair, const Pose& a, const Pose& b) {

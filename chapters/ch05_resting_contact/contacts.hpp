@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "ch04_multibody_stepping/world.hpp"
-#include "ch05_resting_contact/patch.hpp"
+#include "ch05_resting_contact/manifold.hpp"
 
 namespace fc::resting {
 
@@ -38,7 +38,7 @@ struct ContactPoint {
   Vec3 local_normal = Vec3::UnitZ();  // unit, from A to B, in the axes of A, or of B if `of_b`
   bool of_b = false;
   bool balls = false;     // two balls: the normal is along the line of their centres
-  std::uint64_t key = 0;  // see PatchPoint
+  std::uint64_t key = 0;  // see ManifoldPoint
   double force = 0;       // N, mean of the last plan: a guess for the next
   bool lasts = false;     // in contact all through the last plan, which pushed the two bodies
 

@@ -29,7 +29,7 @@ Facing::Facing(const world::World& world) {
   for (const hulls::Model& model : world.models) face_lists_.push_back(build_face_list(model.mesh));
 }
 
-const Patch* Facing::find(const world::World& world, int a, int b, double far) {
+const Manifold* Facing::find(const world::World& world, int a, int b, double far) {
   if (far_apart(world.swept_bounds(a, 0, 0), world.swept_bounds(b, 0, 0), far)) return nullptr;
   ++searches_;
   const ca::Convex core_a = world.model_of(a).leaf(0), core_b = world.model_of(b).leaf(0);
@@ -45,10 +45,10 @@ const Patch* Facing::find(const world::World& world, int a, int b, double far) {
   place->second = nearest.normal;
   nearest.lower = ca::support_gap(core_a, core_b, pose, nearest.normal);
   nearest.point_b -= push;
-  find_patch({world.model_of(a), face_lists_[static_cast<std::size_t>(world.bodies[a].shape)]},
-             {world.model_of(b), face_lists_[static_cast<std::size_t>(world.bodies[b].shape)]}, pose, nearest,
-             kSlack, far, patch_);
-  return &patch_;
+  find_manifold({world.model_of(a), face_lists_[static_cast<std::size_t>(world.bodies[a].shape)]},
+                {world.model_of(b), face_lists_[static_cast<std::size_t>(world.bodies[b].shape)]}, pose,
+                nearest, kSlack, far, manifold_);
+  return &manifold_;
 }
 
 double smallest_gap(Facing& facing, const world::World& world, double far) {
@@ -57,7 +57,8 @@ double smallest_gap(Facing& facing, const world::World& world, double far) {
   for (int a = 0; a < count; ++a)
     for (int b = a + 1; b < count; ++b) {
       if (!world.is_dynamic(a) && !world.is_dynamic(b)) continue;
-      if (const Patch* patch = facing.find(world, a, b, far)) smallest = std::min(smallest, patch->gap);
+      if (const Manifold* manifold = facing.find(world, a, b, far))
+        smallest = std::min(smallest, manifold->gap);
     }
   return smallest;
 }
@@ -72,15 +73,21 @@ void MoreauJean::find_contacts(const world::World& world) {
   for (int a = 0; a < count; ++a)
     for (int b = a + 1; b < count; ++b) {
       if (!world.is_dynamic(a) && !world.is_dynamic(b)) continue;
-      const Patch* patch = facing_.find(world, a, b, 2 * fastest * dt_ + world.tolerance);
-      if (patch == nullptr) continue;
-      for (int i = 0; i < patch->count; ++i) {
-        const PatchPoint& p = patch->points[static_cast<std::size_t>(i)];
+      const Manifold* manifold = facing_.find(world, a, b, 2 * fastest * dt_ + world.tolerance);
+      if (manifold == nullptr) continue;
+      for (int i = 0; i < manifold->count; ++i) {
+        const ManifoldPoint& p = manifold->points[static_cast<std::size_t>(i)];
         const RigidBody &at_a = bodies_[static_cast<std::size_t>(a)],
                         &at_b = bodies_[static_cast<std::size_t>(b)];
         const Vec3 middle = 0.5 * (at_a.pose() * p.point_a + at_b.pose() * p.point_b);
-        const lcp::Contact contact = {
-            a, b, middle, patch->normal, p.gap, world.restitution_of(a, b), world.turns(a), world.turns(b)};
+        const lcp::Contact contact = {a,
+                                      b,
+                                      middle,
+                                      manifold->normal,
+                                      p.gap,
+                                      world.restitution_of(a, b),
+                                      world.turns(a),
+                                      world.turns(b)};
         if (p.gap + std::min(0.0, dt_ * lcp::contact_velocity(bodies_, contact)) <= world.tolerance)
           contacts_.push_back(contact);
       }

@@ -9,7 +9,7 @@
 
 #include "ch03_impulse_lcp/dantzig.hpp"
 #include "ch04_multibody_stepping/world.hpp"
-#include "ch05_resting_contact/patch.hpp"
+#include "ch05_resting_contact/manifold.hpp"
 
 namespace fc::resting {
 
@@ -20,15 +20,15 @@ class Facing {
   // Remembers the shapes of the world, and a normal for each pair.
   explicit Facing(const world::World& world);
   // The points of the pair with a gap of at most `far` (m); null if their boxes are farther apart than that.
-  // Gaps are negative by as much as the bodies overlap along the patch's normal. The reference holds until
+  // Gaps are negative by as much as the bodies overlap along the manifold's normal. The reference holds until
   // the next call. Overlaps of up to a fifth of the smaller body's reach are told right.
-  const Patch* find(const world::World& world, int a, int b, double far);
+  const Manifold* find(const world::World& world, int a, int b, double far);
   std::int64_t searches() const { return searches_; }
 
  private:
   std::vector<FaceList> face_lists_;
   std::map<std::pair<int, int>, Vec3> normals_;
-  Patch patch_;
+  Manifold manifold_;
   std::int64_t searches_ = 0;
 };
 

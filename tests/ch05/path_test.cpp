@@ -1,4 +1,4 @@
-// Patches and paths through a frame against brute force, and a block that tips in closed form.
+// Manifolds and paths through a frame against brute force, and a block that tips in closed form.
 #include "ch05_resting_contact/path.hpp"
 
 #include <gtest/gtest.h>
@@ -74,9 +74,9 @@ bool place(fc::world::World& world, Random& random, double gap) {
   return distance(world, a.pose(), b.pose()) < 2 * gap;
 }
 
-// The smallest gap of a patch is the distance; its plane parts the two; every point lies on both surfaces'
+// The smallest gap of a manifold is the distance; its plane parts the two; every point lies on both surfaces'
 // sides of it.
-TEST(Patch, HasTheDistance) {
+TEST(Manifold, HasTheDistance) {
   Random random(7);
   const char* const shapes[] = {"box", "slab", "pill", "ball", "wedge"};
   int many = 0;
@@ -104,7 +104,7 @@ TEST(Patch, HasTheDistance) {
 }
 
 // A square metre on a square metre, turned by 45 degrees: an octagon, by Pythagoras.
-TEST(Patch, OctagonOfTwoSquares) {
+TEST(Manifold, OctagonOfTwoSquares) {
   fc::world::World world = fc::world::build_world(scene_of(
       "step: {dt: 0.01, duration: 1}\nenvelope: 2.0e-3\nshapes:\n  box: {box: {size: [1, 1, 1]}, mass: "
       "1}\nbodies:\n  - {shape: box}\n  - {shape: box, position: [0, 0, 1.001], orientation: "

@@ -1,4 +1,4 @@
-// The contact patch of two convex bodies: where their nearest faces lie over each other.
+// The contact manifold of two convex bodies: where their nearest faces lie over each other.
 #pragma once
 
 #include <array>
@@ -20,35 +20,35 @@ struct FaceList {
 
 FaceList build_face_list(const hulls::FeatureMesh& mesh);
 
-struct PatchPoint {
+struct ManifoldPoint {
   static constexpr std::uint64_t kBroughtTogether = 4;  // key of a point where the two do not face each other
   Vec3 point_a = Vec3::Zero(), point_b = Vec3::Zero();  // m, on the surfaces, each in its body's axes
-  double gap = 0;                                       // m, along the patch's normal
+  double gap = 0;                                       // m, along the manifold's normal
   std::uint64_t key = 0;  // which edges meet there: the same point has the same key in the next frame
 };
 
 // Points at which two bodies face each other along one plane that separates them.
-struct Patch {
+struct Manifold {
   static constexpr int kMost = 24;
   Vec3 normal = Vec3::UnitZ();  // unit, world, from A to B
   bool of_b = false;            // the plane is a face of B; else it is one of A, or crosses two edges
   double gap = 0;               // m, certified, along the normal
-  std::array<PatchPoint, kMost> points;
+  std::array<ManifoldPoint, kMost> points;
   int count = 0;
 };
 
 // One body of the pair.
-struct PatchSide {
+struct ManifoldSide {
   const hulls::Model& model;
   const FaceList& faces;
 };
 
-// The patch at a pose. The plane is the one that `nearest` found, or a face's, if that parts the bodies as
+// The manifold at a pose. The plane is the one that `nearest` found, or a face's, if that parts the bodies as
 // well up to `slack` (m): a face's normal is exact. Along it the two nearest faces are projected onto each
 // other, and the corners of what they share are the points; those with a gap above `far` (m) are left out.
 // What the faces do not show, the witness points of `nearest` do. A segment or a point counts as a face, and
 // so does what a cylinder or a cone turns towards the other body (outline.hpp).
-void find_patch(const PatchSide& a, const PatchSide& b, const ca::PairPose& pose,
-                const ca::GjkResult& nearest, double slack, double far, Patch& patch);
+void find_manifold(const ManifoldSide& a, const ManifoldSide& b, const ca::PairPose& pose,
+                   const ca::GjkResult& nearest, double slack, double far, Manifold& manifold);
 
 }  // namespace fc::resting

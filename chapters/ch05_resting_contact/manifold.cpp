@@ -1,4 +1,4 @@
-#include "ch05_resting_contact/patch.hpp"
+#include "ch05_resting_contact/manifold.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -64,7 +64,7 @@ void project(const hulls::Outline& outline, const Mat3& rotation, const Vec3& of
 }
 
 // The face (or all vertices, of a segment or a point), seen along the normal; anticlockwise there.
-void project(const PatchSide& side, int face, const Mat3& rotation, const Vec3& offset, const Frame& frame,
+void project(const ManifoldSide& side, int face, const Mat3& rotation, const Vec3& offset, const Frame& frame,
              bool reverse, Polygon& polygon) {
   const auto& vertices = side.model.mesh.vertices;
   const hulls::Lists& lists = side.faces.corners;
@@ -122,7 +122,7 @@ struct Plane {
 
 // A body of the pair, and the face that it turns towards the other one.
 struct Facing {
-  const PatchSide& side;
+  const ManifoldSide& side;
   Mat3 rotation, to_body;  // body axes to world axes, and back
   Vec3 offset;             // m, from A's centre
   ca::Convex core;
@@ -130,7 +130,8 @@ struct Facing {
   int face = -1;           // -1: it has none
 
   // direction: unit, world, out of the body.
-  Facing(const PatchSide& its_side, const Mat3& its_rotation, const Vec3& its_offset, const Vec3& direction)
+  Facing(const ManifoldSide& its_side, const Mat3& its_rotation, const Vec3& its_offset,
+         const Vec3& direction)
       : side(its_side),
         rotation(its_rotation),
         to_body(its_rotation.transpose()),
@@ -154,15 +155,15 @@ struct Facing {
   }
 };
 
-// Fills a patch whose plane is known.
-struct PatchPoints {
+// Fills a manifold whose plane is known.
+struct ManifoldPoints {
   const Facing &a, &b;
   Frame frame;
   double far, radii, same;
   double least;  // m, of the points' gaps
-  Patch& patch;
+  Manifold& manifold;
 
-  PatchPoints(const Facing& facing_a, const Facing& facing_b, double farthest, Patch& filled)
+  ManifoldPoints(const Facing& facing_a, const Facing& facing_b, double farthest, Manifold& filled)
       : a(facing_a),
         b(facing_b),
         frame(filled.normal),
@@ -170,20 +171,20 @@ struct PatchPoints {
         radii(facing_a.side.model.radius + facing_b.side.model.radius),
         same(kSame * (facing_a.side.model.reach + facing_b.side.model.reach)),
         least(farthest),
-        patch(filled) {}
+        manifold(filled) {}
 
   // Points of the cores, m, from A's centre.
   void add(const Vec3& core_point_a, const Vec3& core_point_b, double gap, std::uint64_t key) {
-    if (gap > far || patch.count == Patch::kMost) return;
-    PatchPoint point;
-    point.point_a = a.to_body * (core_point_a + a.side.model.radius * patch.normal);
-    point.point_b = b.to_body * (core_point_b - b.side.model.radius * patch.normal - b.offset);
+    if (gap > far || manifold.count == Manifold::kMost) return;
+    ManifoldPoint point;
+    point.point_a = a.to_body * (core_point_a + a.side.model.radius * manifold.normal);
+    point.point_b = b.to_body * (core_point_b - b.side.model.radius * manifold.normal - b.offset);
     point.gap = gap;
     point.key = key;
-    for (int i = 0; i < patch.count; ++i)
-      if ((patch.points[static_cast<std::size_t>(i)].point_a - point.point_a).squaredNorm() <= same * same)
+    for (int i = 0; i < manifold.count; ++i)
+      if ((manifold.points[static_cast<std::size_t>(i)].point_a - point.point_a).squaredNorm() <= same * same)
         return;
-    patch.points[static_cast<std::size_t>(patch.count++)] = point;
+    manifold.points[static_cast<std::size_t>(manifold.count++)] = point;
   }
   void add_at(double x, double y, double height_a, double height_b, std::uint64_t key) {
     const double gap = height_b - height_a - radii;
@@ -234,20 +235,21 @@ struct PatchPoints {
 
   // They touch, to rounding, and have no nearest points: those farthest along the normal, brought over each other.
   void bring_together() {
-    const Vec3 far_a = a.rotation * ca::support(a.core, a.to_body * patch.normal).point;
-    const Vec3 far_b = b.rotation * ca::support(b.core, -(b.to_body * patch.normal)).point + b.offset;
+    const Vec3 far_a = a.rotation * ca::support(a.core, a.to_body * manifold.normal).point;
+    const Vec3 far_b = b.rotation * ca::support(b.core, -(b.to_body * manifold.normal)).point + b.offset;
     const Vec3 between = 0.5 * (far_a + far_b);
-    add(between + patch.normal.dot(far_a - between) * patch.normal,
-        between + patch.normal.dot(far_b - between) * patch.normal, patch.gap, PatchPoint::kBroughtTogether);
+    add(between + manifold.normal.dot(far_a - between) * manifold.normal,
+        between + manifold.normal.dot(far_b - between) * manifold.normal, manifold.gap,
+        ManifoldPoint::kBroughtTogether);
   }
 };
 
 // The plane that was found, or a face's, if that parts the bodies as well up to the slack.
 void choose_plane(const Facing& a, const Facing& b, const ca::PairPose& pose, const ca::GjkResult& nearest,
-                  double slack, Patch& patch) {
-  patch.normal = nearest.normal;
-  patch.gap = nearest.lower;
-  patch.of_b = false;
+                  double slack, Manifold& manifold) {
+  manifold.normal = nearest.normal;
+  manifold.gap = nearest.lower;
+  manifold.of_b = false;
   double best = nearest.lower - slack;
   for (const bool of_b : {false, true}) {
     if (!(of_b ? b : a).has_plane()) continue;
@@ -255,9 +257,9 @@ void choose_plane(const Facing& a, const Facing& b, const ca::PairPose& pose, co
     const double gap = ca::support_gap(a.core, b.core, pose, normal);
     if (gap < best) continue;
     best = gap;
-    patch.normal = normal;
-    patch.gap = gap;
-    patch.of_b = of_b;
+    manifold.normal = normal;
+    manifold.gap = gap;
+    manifold.of_b = of_b;
   }
 }
 
@@ -305,25 +307,26 @@ FaceList build_face_list(const hulls::FeatureMesh& mesh) {
   return faces;
 }
 
-void find_patch(const PatchSide& side_a, const PatchSide& side_b, const ca::PairPose& pose,
-                const ca::GjkResult& nearest, double slack, double far, Patch& patch) {
+void find_manifold(const ManifoldSide& side_a, const ManifoldSide& side_b, const ca::PairPose& pose,
+                   const ca::GjkResult& nearest, double slack, double far, Manifold& manifold) {
   const Facing a(side_a, pose.rotation_a, Vec3::Zero(), nearest.normal),
       b(side_b, pose.rotation_b, pose.offset_world, -nearest.normal);
-  patch.count = 0;
-  choose_plane(a, b, pose, nearest, slack, patch);
+  manifold.count = 0;
+  choose_plane(a, b, pose, nearest, slack, manifold);
   static thread_local Polygon first, second;
-  PatchPoints points(a, b, far, patch);
-  a.project_to(points.frame, patch.normal, false, first);
-  b.project_to(points.frame, -patch.normal, true, second);
+  ManifoldPoints points(a, b, far, manifold);
+  a.project_to(points.frame, manifold.normal, false, first);
+  b.project_to(points.frame, -manifold.normal, true, second);
   if (std::max(first.count, second.count) > 2)
     points.cut_faces(first, second);
   else if (first.count == 2 && second.count == 2)
     points.join_segments(first, second);
   const bool has_witnesses = nearest.status != ca::GjkResult::Status::overlapping;
-  if (has_witnesses && (patch.count == 0 || points.least > nearest.lower + slack))
+  if (has_witnesses && (manifold.count == 0 || points.least > nearest.lower + slack))
     points.add(nearest.point_a - side_a.model.radius * nearest.normal,
-               nearest.point_b + side_b.model.radius * nearest.normal, std::max(patch.gap, nearest.lower), 3);
-  if (patch.count == 0) points.bring_together();
+               nearest.point_b + side_b.model.radius * nearest.normal, std::max(manifold.gap, nearest.lower),
+               3);
+  if (manifold.count == 0) points.bring_together();
 }
 
 }  // namespace fc::resting
