@@ -21,14 +21,18 @@ struct Contact {
   bool turns_a = true, turns_b = true;
 };
 
-// The relative normal velocity v = n.(v_B - v_A) at the contact point, m/s: negative while the bodies
-// approach.
-inline double contact_velocity(std::span<const RigidBody> bodies, const Contact& contact) {
+// The velocity of B's point as seen from A's, v_B - v_A at the contact point, m/s.
+inline Vec3 relative_velocity(std::span<const RigidBody> bodies, const Contact& contact) {
   const RigidBody& a = bodies[static_cast<std::size_t>(contact.body_a)];
   const RigidBody& b = bodies[static_cast<std::size_t>(contact.body_b)];
   const Vec3 velocity_a = contact.turns_a ? a.velocity_at(contact.point) : a.velocity;
   const Vec3 velocity_b = contact.turns_b ? b.velocity_at(contact.point) : b.velocity;
-  return contact.normal.dot(velocity_b - velocity_a);
+  return velocity_b - velocity_a;
+}
+
+// Its part along the normal, m/s: negative while the bodies approach.
+inline double contact_velocity(std::span<const RigidBody> bodies, const Contact& contact) {
+  return contact.normal.dot(relative_velocity(bodies, contact));
 }
 
 }  // namespace fc::lcp

@@ -137,22 +137,27 @@ void set_restitution(std::vector<Contact>& contacts, double restitution) {
 }  // namespace
 
 void apply_impulse(std::span<RigidBody> bodies, const Contact& contact, double impulse) {
+  apply_impulse(bodies, contact, Vec3(impulse * contact.normal));
+}
+
+void apply_impulse(std::span<RigidBody> bodies, const Contact& contact, const Vec3& impulse) {
   for (const bool on_b : {false, true}) {
     RigidBody& body = bodies[static_cast<std::size_t>(on_b ? contact.body_b : contact.body_a)];
     if (body.is_static()) continue;
-    const Vec3 push = (on_b ? impulse : -impulse) * contact.normal;
+    const Vec3 push = on_b ? impulse : Vec3(-impulse);
     body.velocity += body.inverse_mass * push.cwiseProduct(body.free_moves);
     if (!(on_b ? contact.turns_b : contact.turns_a)) continue;
     body.spin += body.inverse_inertia_world() * (contact.point - body.position).cross(push);
   }
 }
 
-double kinematic_work(std::span<const RigidBody> bodies, const Contact& contact, double impulse) {
+double kinematic_work(std::span<const RigidBody> bodies, const Contact& contact, const Vec3& impulse) {
   double work = 0;
   for (const bool on_b : {false, true}) {
     const RigidBody& body = bodies[static_cast<std::size_t>(on_b ? contact.body_b : contact.body_a)];
-    if (body.is_static())
-      work += (on_b ? -impulse : impulse) * contact.normal.dot(body.velocity_at(contact.point));
+    if (!body.is_static()) continue;
+    const double along = impulse.dot(body.velocity_at(contact.point));
+    work += on_b ? -along : along;
   }
   return work;
 }

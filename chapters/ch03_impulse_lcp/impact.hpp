@@ -49,10 +49,15 @@ struct ImpactResult {
 // Changes the velocities of a contact's two bodies by an impulse (N s) along its normal, at its point; of a
 // body that it does not turn (Contact::turns_a, turns_b) not the spin.
 void apply_impulse(std::span<RigidBody> bodies, const Contact& contact, double impulse);
+// The same by an impulse on B in any direction (N s, world), and its reaction on A.
+void apply_impulse(std::span<RigidBody> bodies, const Contact& contact, const Vec3& impulse);
 
-// What an impulse (N s) at a body that no impulse moves, but that moves by itself, does to the energy of the
+// What an impulse on B (N s, world) at a body that no impulse moves, but that moves by itself, does to the energy of the
 // other: impulse times that body's velocity along it, J.
-double kinematic_work(std::span<const RigidBody> bodies, const Contact& contact, double impulse);
+double kinematic_work(std::span<const RigidBody> bodies, const Contact& contact, const Vec3& impulse);
+inline double kinematic_work(std::span<const RigidBody> bodies, const Contact& contact, double impulse) {
+  return kinematic_work(bodies, contact, Vec3(impulse * contact.normal));
+}
 
 // The velocity below which a contact of this set does not count as approaching, in m/s: round-off of the
 // velocities that cancel in v = n.(v_B - v_A), 1e-12 of the fastest of the touching points (each |velocity| +

@@ -180,6 +180,9 @@ struct ImpactRecord {
   lcp::Contact contact;
   lcp::Impulse impulse;
   ContactKind kind = ContactKind::impact;
+  // Along the surfaces: 0 unless a later chapter's law acts there.
+  Vec3 tangential = Vec3::Zero();          // N s, on B
+  double slip_before = 0, slip_after = 0;  // m/s, sizes
 };
 using OnImpact = std::function<void(const ImpactRecord&)>;
 using OnSighting = std::function<void(const Sighting&)>;

@@ -37,10 +37,10 @@ struct ContactPoint {
   SurfacePoint a, b;
   Vec3 local_normal = Vec3::UnitZ();  // unit, from A to B, in the axes of A, or of B if `of_b`
   bool of_b = false;
-  bool balls = false;     // two balls: the normal is along the line of their centres
-  std::uint64_t key = 0;  // see ManifoldPoint
-  double force = 0;       // N, mean of the last plan: a guess for the next
-  bool lasts = false;     // in contact all through the last plan, which pushed the two bodies
+  bool balls = false;         // two balls: the normal is along the line of their centres
+  std::uint64_t key = 0;      // see ManifoldPoint
+  Vec3 force = Vec3::Zero();  // N, on B, mean of the last plan: a guess for the next
+  bool lasts = false;         // in contact all through the last plan, which pushed the two bodies
 
   // ANCHOR: gap
   Vec3 normal_at(const Pose& pose_a, const Pose& pose_b) const {

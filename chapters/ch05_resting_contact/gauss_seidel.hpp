@@ -39,7 +39,8 @@ class GaussSeidel {
 
   double impulse(int row) const {
     return static_cast<double>(of_row(row).impulse) / static_cast<double>(of_row(row).root);
-  }                                   // N s
+  }  // N s
+  const Vec3& normal(int row) const { return arms_[at(row)].normal; }
   double start_speed(int row) const;  // J v_0, m/s
   double path_speed(int row) const;   // J y
   // In double precision, from the impulses.

@@ -3,8 +3,8 @@
 
 #include <functional>
 
+#include "ch05_resting_contact/contact_law.hpp"
 #include "ch05_resting_contact/island.hpp"
-#include "ch05_resting_contact/island_solver.hpp"
 
 namespace fc::resting {
 
@@ -34,7 +34,7 @@ struct InstantResult {
 // With one restitution for all, k is 1 and this is chapter 3's law; with several it cannot gain energy, as that one could. It
 // is an impact, with restitution, if something comes in faster than rest_speed; else all e_i are 0. Who then still approaches is
 // stopped by a last compression. A contact that comes in fast from farther than the rest gap is left alone: it is not there yet.
-InstantResult resolve_instant(const world::World& world, Island& island, double margin, IslandSolver& solver,
+InstantResult resolve_instant(const world::World& world, Island& island, double margin, ContactLaw& law,
                               const InstantOptions& options);
 
 }  // namespace fc::resting

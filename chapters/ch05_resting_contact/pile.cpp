@@ -179,7 +179,7 @@ int PilePlanner::add_row(const world::World& world, int candidate, int place, bo
   const lcp::Contact contact = contact_of(world, row);
   const double margin = contacts_.margin(), length = courses_.length();
   row.arrives = late || contact.gap > margin;
-  const double guess = late ? 0 : point_of(row).force * length;
+  const double guess = late ? 0 : contact.normal.dot(point_of(row).force) * length;
   const int number =
       gauss_seidel_.add(contact, std::max(0.0, contact.gap - 0.5 * margin) / length,
                         (contact.gap - wanted_gap(contact.gap, margin)) / length, guess, 0.5 * guess);
@@ -290,7 +290,7 @@ void PilePlanner::remember() const {
     const Row& row = rows_[at(i)];
     if (row.late) continue;
     ContactPoint& point = courses_.candidates[at(row.pair)].contacts->points[at(row.place)];
-    point.force = gauss_seidel_.impulse(i) / courses_.length();
+    point.force = gauss_seidel_.impulse(i) / courses_.length() * gauss_seidel_.normal(i);
     point.lasts = pushes[at(row.pair)] && !row.arrives;
   }
 }
@@ -315,10 +315,10 @@ Planned PilePlanner::take(const world::World& world) {
     told.contact = contact_of(world, row);
     if (kinematic) result.kinematic_work += lcp::kinematic_work(swept, told.contact, z + back_[at(i)]);
     if (!options_.told) continue;
-    told.impulse = z;
-    told.back = back_[at(i)];
-    told.before = row.before;
-    told.after = lcp::contact_velocity(bounced, told.contact);
+    told.impulse = z * told.contact.normal;
+    told.back = back_[at(i)] * told.contact.normal;
+    told.before = row.before * told.contact.normal;
+    told.after = lcp::relative_velocity(bounced, told.contact);
     told.key = point_of(row).key;
     told.arrives = row.arrives;
     if (row.arrives) {

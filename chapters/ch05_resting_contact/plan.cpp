@@ -90,10 +90,10 @@ PlanMaker::Result PlanMaker::make(const world::World& world, const Island& islan
     return PathOptions{.need = kFloor * contacts_.margin(), .most_pairs = most};
   };
   const auto acts_on_air = [&](const Row& row) {  // an impulse across more than the margin
-    return row.impulse > 0 && row.arrives && row.end_gap > contacts_.margin();
+    return row.push() > 0 && row.arrives && row.end_gap > contacts_.margin();
   };
   const auto is_put_out = [&](const Row& row) {  // of contact, by corrections, although it pushes
-    return row.impulse > 0 && !row.arrives && row.end_gap > contacts_.margin();
+    return row.push() > 0 && !row.arrives && row.end_gap > contacts_.margin();
   };
   corrects_ = true;
   for (int round = 0; round < kMostProofs; ++round) {
@@ -104,6 +104,8 @@ PlanMaker::Result PlanMaker::make(const world::World& world, const Island& islan
     }
     if (ends != Result::proved) return ends;
     if (gains()) return Result::unproved;
+    meeting_ = holds_until();
+    if (meeting_ < length) return Result::meets;
     courses_.find(world, false);
     for (std::size_t i = fast_.size(); i < courses_.members.size(); ++i) {
       fast_.push_back(courses_.members[i].state);
@@ -136,15 +138,17 @@ void PlanMaker::add_row(const world::World& world, int candidate, const ContactP
   const double gap = arrives ? std::min(pair.contacts->gap, 0.5 * contacts_.margin()) : row.gap;
   row.keep = std::min(gap, 0.5 * contacts_.margin());
   row.want = wanted_gap(gap, contacts_.margin());
-  row.impulse = arrives ? 0 : point.force * courses_.length();
+  if (!arrives) row.impulse = courses_.length() * point.force;
   rows_.push_back(row);
 }
 
-// From impulses_, with approach_limits_; bodies get the velocities.
-bool PlanMaker::solve(std::vector<RigidBody>& bodies) {
-  if (rows_.empty()) return true;
-  const IslandResult result =
-      solver_.solve(bodies, contact_list_, approach_limits_, impulses_, options_.solver);
+ContactSet PlanMaker::set_of(std::vector<RigidBody>& bodies) {
+  numbers_.clear();
+  for (const Member& member : courses_.members) numbers_.push_back(member.number);
+  return {bodies, numbers_, contact_list_};
+}
+
+bool PlanMaker::counts(const IslandResult& result) {
   residual_ = std::max(residual_, result.residual);
   ++solves_;
   if (!result.solved) {
@@ -154,38 +158,48 @@ bool PlanMaker::solve(std::vector<RigidBody>& bodies) {
   return result.solved;
 }
 
+// From impulses_, with approach_limits_; bodies get the velocities.
+bool PlanMaker::push(std::vector<RigidBody>& bodies) {
+  return contact_list_.empty() ||
+         counts(law_.push(set_of(bodies), approach_limits_, impulses_, options_.solver));
+}
+
 // Steps 1 and 2, with the rows' right-hand sides as they are.
 bool PlanMaker::solve() {
-  const double length = courses_.length();
   fast_ = courses_.with(courses_.drift);
   contact_list_.clear();
   approach_limits_.clear();
   impulses_.clear();
   for (const Row& row : rows_) {
     contact_list_.push_back(row.contact);
-    approach_limits_.push_back(row.approach_limit(length));
+    approach_limits_.push_back(row.approach_limit(courses_.length()));
     impulses_.push_back(row.impulse);
   }
-  if (!solve(fast_)) return false;
+  if (!push(fast_)) return false;
   for (std::size_t r = 0; r < rows_.size(); ++r) rows_[r].impulse = impulses_[r];
+  if (!correct()) {  // nothing to put right, or no room for all of it: gaps stay as they are
+    path_ = fast_;
+    std::fill(corrections_.begin(), corrections_.end(), 0.0);
+  }
+  for (std::size_t r = 0; r < rows_.size(); ++r) rows_[r].correction = corrections_[r];
+  return true;
+}
 
+bool PlanMaker::correct() {
+  const double length = courses_.length();
   path_ = fast_;
+  corrections_.clear();
   bool short_of = false;
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     const Row& row = rows_[r];
     approach_limits_[r] = (row.gap + row.bend - row.want) / length;
-    impulses_[r] = row.correction;
+    corrections_.push_back(row.correction);
     if (lcp::contact_velocity(path_, row.contact) + approach_limits_[r] <
         -kClosed * contacts_.margin() / length)
       short_of = true;
   }
-  if (!corrects_ || !short_of ||
-      !solve(path_)) {  // nothing to put right, or no room for all of it: gaps stay as they are
-    path_ = fast_;
-    std::fill(impulses_.begin(), impulses_.end(), 0.0);
-  }
-  for (std::size_t r = 0; r < rows_.size(); ++r) rows_[r].correction = impulses_[r];
-  return true;
+  return corrects_ && short_of &&
+         counts(law_.correct(set_of(path_), approach_limits_, corrections_, options_.solver));
 }
 
 // The contact's velocity (m/s) at the end of the paths, if bodies have these velocities.
@@ -211,13 +225,13 @@ PlanMaker::Result PlanMaker::close_ends() {
     for (Row& row : rows_) {
       const Path &a = courses_.paths[at(row.contact.body_a)], &b = courses_.paths[at(row.contact.body_b)];
       row.end_gap = row.point.gap_at(a.end, b.end);
-      if (row.end_gap >= contacts_.margin() && !(row.impulse > 0 || row.correction > 0)) continue;
+      if (row.end_gap >= contacts_.margin() && !(row.push() > 0 || row.correction > 0)) continue;
       const double bend =
           row.end_gap - row.gap - courses_.length() * lcp::contact_velocity(path_, row.contact);
       worst = std::max(worst, std::abs(bend - row.bend));
       row.bend = bend;
       row.most_push = std::max(0.0, -end_speed(row, fast_));
-      const double parts = row.impulse > 0 ? lcp::contact_velocity(fast_, row.contact) - row.most_push : 0;
+      const double parts = row.push() > 0 ? lcp::contact_velocity(fast_, row.contact) - row.most_push : 0;
       worst = std::max(worst, courses_.length() * parts);
     }
     if (worst <= kClosed * contacts_.margin()) break;
@@ -246,6 +260,20 @@ bool PlanMaker::gains() const {
     end_gain += fast.kinetic_energy() - free.kinetic_energy();
   }
   return std::max(gain, end_gain) > kMostBorrowed * size;
+}
+
+// Up to which time (s) impulses of contacts that last can act evenly.
+double PlanMaker::holds_until() {
+  contact_list_.clear();
+  impulses_.clear();
+  for (const Row& row : rows_) {
+    if (row.arrives) continue;
+    contact_list_.push_back(row.contact);
+    impulses_.push_back(row.impulse);
+  }
+  std::vector<RigidBody> now;
+  for (const Member& member : courses_.members) now.push_back(member.state);
+  return law_.holds_until(set_of(fast_), now, impulses_, courses_.length());
 }
 
 // When (s from the start) a point of a pair has come down to the rest gap, if its bodies go as on these paths.
@@ -293,7 +321,7 @@ bool PlanMaker::add_rows_of(const world::World& world, int candidate) {
 // For the next plan's guess; and which contacts last: where something pushes, all points that stay in contact.
 void PlanMaker::remember() const {
   std::vector<char> pushes(courses_.candidates.size(), 0);
-  for (const Row& row : rows_) pushes[at(row.pair)] |= row.impulse > 0 && !row.arrives;
+  for (const Row& row : rows_) pushes[at(row.pair)] |= row.push() > 0 && !row.arrives;
   for (const Row& row : rows_)
     for (ContactPoint& point : courses_.candidates[at(row.pair)].contacts->points) {
       if (point.key != row.point.key) continue;
@@ -303,10 +331,10 @@ void PlanMaker::remember() const {
 }
 
 // The members as their contacts that last make them alone, and the impulses (N s) that these need for it.
-std::vector<RigidBody> PlanMaker::without_arrivals(std::vector<double>& early) {
+std::vector<RigidBody> PlanMaker::without_arrivals(std::vector<Vec3>& early) {
   early.clear();
   for (const Row& row : rows_) early.push_back(row.impulse);
-  if (std::none_of(rows_.begin(), rows_.end(), [](const Row& row) { return row.arrives && row.impulse > 0; }))
+  if (std::none_of(rows_.begin(), rows_.end(), [](const Row& row) { return row.arrives && row.push() > 0; }))
     return fast_;
   std::vector<RigidBody> bodies = courses_.with(courses_.drift);
   std::vector<std::size_t> lasting;
@@ -314,14 +342,14 @@ std::vector<RigidBody> PlanMaker::without_arrivals(std::vector<double>& early) {
   approach_limits_.clear();
   impulses_.clear();
   for (std::size_t r = 0; r < rows_.size(); ++r) {
-    early[r] = 0;
+    early[r] = Vec3::Zero();
     if (rows_[r].arrives) continue;
     lasting.push_back(r);
     contact_list_.push_back(rows_[r].contact);
     approach_limits_.push_back(rows_[r].approach_limit(courses_.length()));
     impulses_.push_back(rows_[r].impulse);
   }
-  if (lasting.empty() || !solve(bodies)) return bodies;
+  if (lasting.empty() || !push(bodies)) return bodies;
   for (std::size_t k = 0; k < lasting.size(); ++k) early[lasting[k]] = impulses_[k];
   return bodies;
 }
@@ -331,14 +359,15 @@ Planned PlanMaker::take() {
   const double length = courses_.length();
   remember();
   Planned result;
-  std::vector<double> early;
+  std::vector<Vec3> early;
   std::vector<char> goes(courses_.members.size(), 0);
   const std::vector<RigidBody> free = courses_.with(courses_.drift), ends = without_arrivals(early);
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     const Row& row = rows_[r];
-    if (row.impulse > 0 || early[r] > 0 || row.correction > 0 || row.end_gap < contacts_.margin())
+    const bool pushes = row.push() > 0 || early[r].dot(row.contact.normal) > 0;
+    if (pushes || row.correction > 0 || row.end_gap < contacts_.margin())
       for (const int member : {row.contact.body_a, row.contact.body_b}) goes[at(member)] = 1;
-    if (!(row.impulse > 0 || early[r] > 0)) continue;
+    if (!pushes) continue;
     ++result.pushing;
     result.kinematic_work += lcp::kinematic_work(fast_, row.contact, row.impulse);
     result.early_work += lcp::kinematic_work(fast_, row.contact, early[r]);
@@ -346,8 +375,8 @@ Planned PlanMaker::take() {
     told.contact = row.contact;
     told.impulse = row.impulse;
     told.early = early[r];
-    told.before = lcp::contact_velocity(free, row.contact);
-    told.after = lcp::contact_velocity(fast_, row.contact);
+    told.before = lcp::relative_velocity(free, row.contact);
+    told.after = lcp::relative_velocity(fast_, row.contact);
     told.key = row.point.key;
     told.arrives = row.arrives;
     if (row.arrives) {

@@ -1,20 +1,20 @@
 // A plan: how the bodies of an island go on together for a while, as contacts that last let them.
 #pragma once
 
+#include "ch05_resting_contact/contact_law.hpp"
 #include "ch05_resting_contact/courses.hpp"
-#include "ch05_resting_contact/island_solver.hpp"
 
 namespace fc::resting {
 
 // A row of a plan, and what it does: for contacts.csv.
 struct PlannedRow {
-  lcp::Contact contact;          // bodies by their numbers in the world
-  double impulse = 0;            // N s, of the whole plan
-  double early = 0;              // N s, of that which acts evenly all the time, and not at its end
-  double back = 0;               // N s, that it gives back at the plan's end
-  double before = 0, after = 0;  // m/s, the contact's velocity without and with the plan's impulses
-  std::uint64_t key = 0;         // of its point
-  bool arrives = false;  // it was not in contact at the start: what it does, it does at the plan's end
+  lcp::Contact contact;  // bodies by their numbers in the world
+  // N s, on B: of the whole plan; of it what acts evenly all the time, and not at its end; what it gives back at the plan's end.
+  Vec3 impulse = Vec3::Zero(), early = Vec3::Zero(), back = Vec3::Zero();
+  // m/s, of B's point as seen from A's, without and with the plan's impulses.
+  Vec3 before = Vec3::Zero(), after = Vec3::Zero();
+  std::uint64_t key = 0;  // of its point
+  bool arrives = false;   // it was not in contact at the start: what it does, it does at the plan's end
 };
 
 // What a plan's bodies do. An event may end it before its time: then only that share of what acts all the time has acted, and
@@ -51,7 +51,8 @@ double wanted_gap(double gap, double margin);
 // which lets velocities end with no contact closing, is the next instant's impact law.
 class PlanMaker {
  public:
-  explicit PlanMaker(Contacts& contacts) : contacts_(contacts), courses_(contacts, false) {}
+  PlanMaker(Contacts& contacts, ContactLaw& law)
+      : contacts_(contacts), law_(law), courses_(contacts, false) {}
 
   enum class Result { proved, unproved, meets, unsolved };
   // For `length` seconds from `now` on (s in the frame).
@@ -60,7 +61,7 @@ class PlanMaker {
   // What was made. The forces that it found are guesses for the next plan.
   Planned take();
 
-  // If it meets: when the first two bodies that bounce are there, s from the plan's start.
+  // If it meets: when the first two bodies that bounce are there, or impulses have to change, s from the plan's start.
   double meeting() const { return meeting_; }
   double worst_residual() const { return residual_; }
   lcp::Status status() const { return status_; }  // of the last solution that failed,
@@ -72,39 +73,47 @@ class PlanMaker {
   struct Row {
     int pair;  // among the candidates
     ContactPoint point;
-    lcp::Contact contact;       // bodies by their places among the members
-    double gap = 0;             // m, now
-    double bend = 0;            // m, by which the gap at the end differs from its first order
-    double keep = 0, want = 0;  // m, at the end: for velocities, and for paths
-    double impulse = 0, correction = 0;
+    lcp::Contact contact;         // bodies by their places among the members
+    double gap = 0;               // m, now
+    double bend = 0;              // m, by which the gap at the end differs from its first order
+    double keep = 0, want = 0;    // m, at the end: for velocities, and for paths
+    Vec3 impulse = Vec3::Zero();  // N s, on B
+    double correction = 0;        // N s
     double end_gap = 0;
     double most_push = std::numeric_limits<double>::
         infinity();  // m/s: velocities are made to part by no more, since no more is taken back at the end
     bool arrives = false;  // not in contact now: what the row does, it does at the plan's end
 
-    double approach_limit(double length) const {  // m/s
+    double push() const { return impulse.dot(contact.normal); }  // N s
+    double approach_limit(double length) const {                 // m/s
       return std::max((gap + bend - keep) / length, -most_push);
     }
   };
   void add_row(const world::World& world, int candidate, const ContactPoint& point, bool arrives);
   bool solve();
-  bool solve(std::vector<RigidBody>& bodies);
+  bool push(std::vector<RigidBody>& bodies);
+  bool correct();
+  bool counts(const IslandResult& result);
+  ContactSet set_of(std::vector<RigidBody>& bodies);
   Result close_ends();
   bool gains() const;
-  std::vector<RigidBody> without_arrivals(std::vector<double>& early);
+  std::vector<RigidBody> without_arrivals(std::vector<Vec3>& early);
   void remember() const;
+  double holds_until();
   double arrival(const Row& row) const;
   bool add_rows_of(const world::World& world, int candidate);
   double end_speed(const Row& row, const std::vector<RigidBody>& bodies) const;
 
   Contacts& contacts_;
+  ContactLaw& law_;
   Courses courses_;
-  IslandSolver solver_;
   PlanOptions options_;
   std::vector<RigidBody> fast_, path_;  // of each member, with velocities w, and y
   std::vector<Row> rows_;
   std::vector<lcp::Contact> contact_list_;
-  std::vector<double> approach_limits_, impulses_;
+  std::vector<double> approach_limits_, corrections_;
+  std::vector<Vec3> impulses_;
+  std::vector<int> numbers_;  // of the members in the world
   double residual_ = 0, meeting_ = 0;
   bool corrects_ = true;
   lcp::Status status_ = lcp::Status::limit;

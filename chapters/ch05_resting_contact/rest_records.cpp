@@ -2,6 +2,17 @@
 
 namespace fc::resting {
 
+world::ImpactRecord record_of(double time, const lcp::Contact& contact, const Vec3& before, const Vec3& after,
+                              const Vec3& impulse, world::ContactKind kind) {
+  const Vec3& n = contact.normal;
+  const double normal = n.dot(impulse);
+  world::ImpactRecord record{time, contact, {0, 0, n.dot(before), n.dot(after), normal}, kind};
+  record.tangential = impulse - normal * n;
+  record.slip_before = (before - n.dot(before) * n).norm();
+  record.slip_after = (after - n.dot(after) * n).norm();
+  return record;
+}
+
 void RestRecords::clear() {
   records_.clear();
   last_of_.clear();
@@ -18,6 +29,8 @@ void RestRecords::add(const world::ImpactRecord& record, std::uint64_t key) {
       continue;
     told.record.impulse.impulse += record.impulse.impulse;
     told.record.impulse.v_after = record.impulse.v_after;
+    told.record.tangential += record.tangential;
+    told.record.slip_after = record.slip_after;
     return;
   }
   records_.push_back({record, key, last});

@@ -8,6 +8,10 @@
 
 namespace fc::resting {
 
+// The record of an impulse (N s, world, on B): the velocities of B's point as seen from A's were `before` and are `after` (m/s).
+world::ImpactRecord record_of(double time, const lcp::Contact& contact, const Vec3& before, const Vec3& after,
+                              const Vec3& impulse, world::ContactKind kind);
+
 class RestRecords {
  public:
   void clear();

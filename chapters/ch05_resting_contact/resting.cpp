@@ -48,10 +48,12 @@ void stop(world::World& world, int kinematic, double now, double dt, world::Step
 
 }  // namespace
 
-Resting::Resting(const Scene& scene, world::World& world, double dt, const RestOptions& options)
+Resting::Resting(const Scene& scene, world::World& world, double dt, const RestOptions& options,
+                 std::unique_ptr<ContactLaw> law)
     : contacts_(world, envelope_of(scene, world, dt)),
       islands_(contacts_, world.bodies.size()),
-      maker_(contacts_),
+      law_(law ? std::move(law) : std::make_unique<NormalLaw>()),
+      maker_(contacts_, *law_),
       pile_planner_(contacts_),
       options_(options),
       frame_(dt),
@@ -216,17 +218,16 @@ void Resting::end_plan(Instant& instant, int number) {
     instant.bodies.push_back(member);
   }
   for (const PlannedRow& row : plan.what.rows) {
-    const double end = told_at(instant.now, dt_), acted = whole ? row.impulse : share * row.early;
-    if (acted > 0)
-      records_.add({row.arrives ? end : plan.start,
-                    row.contact,
-                    {0, 0, row.before, row.after, acted},
-                    world::ContactKind::rest},
+    const double end = told_at(instant.now, dt_);
+    const Vec3 acted = whole ? row.impulse : Vec3(share * row.early);
+    if (acted.dot(row.contact.normal) > 0)
+      records_.add(record_of(row.arrives ? end : plan.start, row.contact, row.before, row.after, acted,
+                             world::ContactKind::rest),
                    row.key);
-    if (!whole || !(row.back > 0)) continue;
+    if (!whole || !(row.back.dot(row.contact.normal) > 0)) continue;
     ++instant.report.impacts;
     instant.listeners.impact(
-        {end, row.contact, {0, 0, row.before, row.after, row.back}, world::ContactKind::impact});
+        record_of(end, row.contact, row.before, row.after, row.back, world::ContactKind::impact));
   }
   instant.report.kinematic_work += whole ? plan.what.kinematic_work : share * plan.what.early_work;
   plan.runs = false;
@@ -241,7 +242,7 @@ bool Resting::resolve(Instant& instant, Island& island) {
   options.guess = 0.5 * dt_;
   options.bounces = [&](int body) { return meetings_[at(body)] < kMostBounces; };
   options.solver = options_.solver;
-  const InstantResult result = resolve_instant(instant.world, island, envelope(), solver_, options);
+  const InstantResult result = resolve_instant(instant.world, island, envelope(), *law_, options);
   if (!result.solved && options_.solver.chosen)
     throw lcp::unsolved(instant.world.solver, result.status, result.steps, result.residual);
   if (!result.solved) return false;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <memory>
 
 #include "ch05_resting_contact/envelope.hpp"
 #include "ch05_resting_contact/impact_law.hpp"
@@ -42,7 +43,8 @@ struct RestOptions {
 class Resting : public world::Planner {
  public:
   // Sets the world's rest gap. Throws as envelope_of().
-  Resting(const Scene& scene, world::World& world, double dt, const RestOptions& options = {});
+  Resting(const Scene& scene, world::World& world, double dt, const RestOptions& options = {},
+          std::unique_ptr<ContactLaw> law = {});  // none: a NormalLaw
 
   // One frame of dt seconds (that of the constructor).
   RestReport step(world::World& world, const world::Listeners& listeners = {});
@@ -85,10 +87,10 @@ class Resting : public world::Planner {
 
   Contacts contacts_;
   IslandFinder islands_;
+  std::unique_ptr<ContactLaw> law_;
   PlanMaker maker_;
   PilePlanner pile_planner_;
   KinematicWatch watch_;
-  IslandSolver solver_;
   RestOptions options_;
   double frame_, dt_;  // s, of a frame, and of the part of it at hand
   std::vector<Running> plans_;

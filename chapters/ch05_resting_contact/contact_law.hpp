@@ -1,0 +1,53 @@
+// What the contacts of an island can do to its bodies. Without friction they push along their normals; a later chapter's law may
+// do more, and stands in the same place.
+#pragma once
+
+#include "ch05_resting_contact/island_solver.hpp"
+
+namespace fc::resting {
+
+struct ContactSet {
+  std::span<RigidBody> bodies;
+  std::span<const int> numbers;            // of the bodies in the world
+  std::span<const lcp::Contact> contacts;  // n; bodies by their places here
+};
+
+class ContactLaw {
+ public:
+  virtual ~ContactLaw() = default;
+
+  // Finds impulses (n; N s, world, on B) that the law allows, after which contact i closes in with at most limits_i (m/s;
+  // negative: it must part), and changes the bodies' velocities. Impulses come in as guesses. Unless solved, nothing changes.
+  virtual IslandResult push(const ContactSet& set, std::span<const double> limits, std::span<Vec3> impulses,
+                            const IslandOptions& options) = 0;
+  // The same for velocities of paths, which put gaps right, after push() for the same contacts. The n impulses are along the
+  // normals, >= 0.
+  virtual IslandResult correct(const ContactSet& set, std::span<const double> limits,
+                               std::span<double> impulses, const IslandOptions& options) = 0;
+  // After a compression the contacts give back these normal impulses (n, N s). What acts is added to `total` (n).
+  virtual void give_back(const ContactSet& set, std::span<const double> normals, std::span<Vec3> total) = 0;
+  // Up to which time (s) of a plan of `length` what push() found can act evenly: with the bodies now, and their mean
+  // velocities in the set.
+  virtual double holds_until(const ContactSet& mean, std::span<const RigidBody> now,
+                             std::span<const Vec3> impulses, double length) const = 0;
+};
+
+// Contacts that push along their normals alone.
+class NormalLaw : public ContactLaw {
+ public:
+  IslandResult push(const ContactSet& set, std::span<const double> limits, std::span<Vec3> impulses,
+                    const IslandOptions& options) override;
+  IslandResult correct(const ContactSet& set, std::span<const double> limits, std::span<double> impulses,
+                       const IslandOptions& options) override;
+  void give_back(const ContactSet& set, std::span<const double> normals, std::span<Vec3> total) override;
+  double holds_until(const ContactSet&, std::span<const RigidBody>, std::span<const Vec3>,
+                     double length) const override {
+    return length;
+  }
+
+ private:
+  IslandSolver solver_;
+  std::vector<double> normals_;
+};
+
+}  // namespace fc::resting
