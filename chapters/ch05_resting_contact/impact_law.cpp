@@ -93,7 +93,7 @@ Touching touching(const world::World& world, const Island& island, std::span<con
   return result;
 }
 
-// Some contacts of an instant; what their impulses do is told in its result.
+// Some contacts of an instant; what their impulses do is reported in its result.
 bool compress(std::vector<RigidBody>& bodies, const std::vector<lcp::Contact>& contacts,
               std::vector<double>& impulses, IslandSolver& solver, const InstantOptions& options,
               InstantResult& result) {

@@ -39,10 +39,10 @@ std::vector<Clash> KinematicWatch::look(const world::World& world, Contacts& con
     if (!world.is_moving_kinematic(a)) continue;
     for (int b = 0; b < count; ++b) {
       if (b == a || world.is_dynamic(b) || (world.is_moving_kinematic(b) && b < a)) continue;
-      if (world::is_sensor_pair(world, a, b) || told_.contains({a, b})) continue;
+      if (world::is_sensor_pair(world, a, b) || reported_.contains({a, b})) continue;
       const std::optional<double> time = clash(world, contacts, a, b, dt);
       if (!time) continue;
-      told_.insert({a, b});
+      reported_.insert({a, b});
       clashes.push_back({a, b, *time});
     }
   }

@@ -56,7 +56,7 @@ struct Random {
   Quat rotation() { return Quat(1.5 * (*this)(), (*this)(), (*this)(), (*this)()).normalized(); }
 };
 
-// Places B beside A, along a random direction, with about the gap that is asked for.
+// Places B beside A, along a random direction, with about the gap that is wanted.
 bool place(fc::world::World& world, Random& random, double gap) {
   fc::RigidBody &a = world.bodies[0].state, &b = world.bodies[1].state;
   a.position = random.vector();
