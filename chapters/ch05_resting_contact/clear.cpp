@@ -237,8 +237,8 @@ bool ClearDraft::is_clear(int i, int j) {
   contacts.update(world, pair, a.start, b.start);
   const double rounding = ca::rounding_term(world.model_of(pair.a).whole(), world.model_of(pair.b).whole(),
                                             ca::PairPose(a.start, b.start));
-  const double need = 0.5 * std::min(pair.gap, 0.5 * contacts.margin()) - 64 * rounding;
-  if (check_path(world, contacts, pair, a, b, length, {.need = need}).clear) return true;
+  const double required_gap = 0.5 * std::min(pair.gap, 0.5 * contacts.margin()) - 64 * rounding;
+  if (check_path(world, contacts, pair, a, b, length, {.required_gap = required_gap}).clear) return true;
   double gap = 0;
   if (pair.gap > contacts.margin()) return false;
   for (const ContactPoint& point : contacts.points_at(world, pair, a.end, b.end, gap)) {

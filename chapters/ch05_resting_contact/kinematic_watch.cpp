@@ -20,7 +20,7 @@ std::optional<double> clash(const world::World& world, Contacts& contacts, int a
   contacts.update(world, pair, path_a.start, path_b.start);
   if (pair.gap > world.tolerance) {
     const PathVerdict verdict =
-        check_path(world, contacts, pair, path_a, path_b, dt, {.need = 0.5 * world.tolerance});
+        check_path(world, contacts, pair, path_a, path_b, dt, {.required_gap = 0.5 * world.tolerance});
     if (verdict.clear) return {};
     return verdict.time;
   }
