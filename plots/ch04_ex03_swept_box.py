@@ -20,7 +20,7 @@ def draw(run: Path) -> plt.Figure:
     at = range(len(table["dt"]))  # the lengths are chosen, not measured: evenly apart they are easier to read
     axes.semilogy(at, table["pairs of balls"], "s-", color=ORANGE, ms=4, label="balls around the blocks (the chapter)")
     axes.semilogy(at, table["pairs of boxes"], "o-", color=BLUE, ms=4, label="your boxes")
-    axes.set(title="Pairs to be asked, of 1,000 blocks", xlabel="length of the frame [ms]", ylabel="pairs")
+    axes.set(title="Pairs to be queried, of 1,000 blocks", xlabel="length of the frame [ms]", ylabel="pairs")
     axes.set_xticks(at, [f"{1000 * dt:.0f}" for dt in table["dt"]])
     axes.set_yticks(PAIRS, [f"{pairs:,}" for pairs in PAIRS])
     axes.minorticks_off()

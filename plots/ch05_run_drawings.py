@@ -35,11 +35,11 @@ def zeno(runs: Path) -> plt.Figure:
     figure, (height, ticks) = plt.subplots(2, 1, figsize=(9.2, 3.9), height_ratios=(3, 1), sharex=True)
     for t, h in arcs(contacts, (1, 0), end)[:-1]:
         height.plot(t, h, color=BLUE)
-    held = end - lost
+    frozen = end - lost
     for axes in (height, ticks):
-        axes.axvspan(held, end, color=PALE, lw=0)
+        axes.axvspan(frozen, end, color=PALE, lw=0)
         axes.axvline(limit, color=ORANGE, ls="--", lw=1.2)
-    note(height, (0.5 * (held + end), 0.5), "held:\ntime is lost", GREY)
+    note(height, (0.5 * (frozen + end), 0.5), "frozen:\ntime is lost", GREY)
     note(height, (limit - 0.012, 0.86), f"Zeno's time, {limit:.3f} s", ORANGE, ha="right")
     height.set(title="A ball with ε = ½ that falls from a metre, in chapter 4", ylabel="height [m]", xlim=(0, end), ylim=(-0.03, 1.05))
     ticks.vlines(contacts["t"], 0, 1, color=BLUE, lw=1)
@@ -187,7 +187,7 @@ def frame(runs: Path) -> plt.Figure:
     flight(0, 0, end)
     note(axes, (0.03, 4.33), "flies", GREY)
     note(axes, (0.08, 4.33), "flies, with another velocity", GREY)
-    note(axes, (0.05, 0.36), "flies, and is asked nothing", GREY)
+    note(axes, (0.05, 0.36), "flies, with no new query", GREY)
     bar(2, 3, 0, hit, BLUE, "plan 1: cut here, it has given\nthis share of its impulses")
     bar(2, 3, hit, end, GREEN, "plan 3")
     bar(1, 1, 0, end, ORANGE, "plan 2: undisturbed to the frame's end")

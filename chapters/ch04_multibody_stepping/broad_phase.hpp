@@ -1,5 +1,4 @@
-// The broad phase: which bodies come near each other at all, in time that grows with log n for each that
-// asks.
+// The broad phase: which bodies come near each other at all, in time that grows with log n for each query.
 #pragma once
 
 #include <span>

@@ -2,7 +2,7 @@
 //
 // Where two boxes of a floor are flush, something that slides over the seam comes as near to the next box's side as to its
 // top. The nearest points do not tell the two apart: within the tolerance their normal may point anywhere between the two
-// faces' normals. But convex bodies meet only if every plane between them closes. So a pair that is near is asked for the
+// faces' normals. But convex bodies meet only if every plane between them closes. So a pair that is near is queried for the
 // faces beside its nearest points: if one of them parts the two bodies, and they do not close in along it, it is this plane
 // that counts.
 #pragma once

@@ -17,7 +17,7 @@ struct Pair {
   bool contact = false;  // at `time` the pair reaches its gap (else it is clear until then)
   bool stalled = false;  // it has no gap left to spend, and closes in within the frame
   bool open = false;     // in use; closed when one of its bodies changes its motion
-  int answers = 0;       // how often it was asked: an event of an older answer is void
+  int answers = 0;       // how often it was queried: an event of an older answer is void
 };
 
 // Pairs by number, and the numbers of each body's pairs. Nothing here knows what a body is.

@@ -14,7 +14,7 @@ inline bool is_sensor_pair(const World& world, int a, int b) {
 
 // Looks at a pair with a sensor at `now` (s in the frame): whether they touch (gap within the tolerance),
 // overlap, or one is inside the other. The result is what to report: a sighting if they touch and did not
-// when they were last looked at. `touching` tells whether they touch.
+// when they were last looked at. `touching` says whether they touch.
 std::optional<Sighting> look(World& world, int a, int b, double now, bool& touching);
 
 }  // namespace fc::world

@@ -64,7 +64,7 @@ class Stepper {
   Stepper(World& world, double dt, StepReport& report, const Listeners& listeners)
       : world_(world), schedule_(world.schedule), dt_(dt), report_(report), listeners_(listeners) {}
 
-  // Opens the pairs whose swept boxes overlap in the frame, and asks each for its next contact.
+  // Opens the pairs whose swept boxes overlap in the frame, and queries each for its next contact.
   void begin_frame(Planner* planner) {
     const int count = static_cast<int>(world_.bodies.size());
     std::vector<Bounds> boxes;
@@ -89,7 +89,7 @@ class Stepper {
     return number >= 0;
   }
 
-  void ask(int number, double now) {
+  void query(int number, double now) {
     Pair& pair = schedule_.pair(number);
     std::optional<double> gap;  // known of those that touched at this instant
     if (now == solved_at_)
@@ -130,7 +130,7 @@ class Stepper {
     new_motions(stopped, now);
   }
 
-  // Looks at a pair with a sensor, and tells what is new: contacts are told, not resolved. Whether they
+  // Looks at a pair with a sensor, and reports what is new: contacts are reported, not resolved. Whether they
   // touch.
   bool sight(int a, int b, double now) {
     bool touching = false;
@@ -187,10 +187,10 @@ class Stepper {
   void open(int a, int b, double now) {
     ++report_.pairs;
     if (is_sensor_pair(world_, a, b) && sight(a, b, now)) return;  // until one of them begins a new motion
-    ask(schedule_.open(a, b), now);
+    query(schedule_.open(a, b), now);
   }
 
-  // Opens and asks the pairs of a body with all whose boxes its own overlaps, but for those that `skip`
+  // Opens and queries the pairs of a body with all whose boxes its own overlaps, but for those that `skip`
   // knows.
   template <class Skip>
   void meet(int body, const Bounds& box, double now, Skip&& skip) {
@@ -311,7 +311,7 @@ StepReport step(World& world, double dt, const Listeners& listeners, Planner* pl
     // From contact to contact: the earliest of all pairs.
     const Pair pair = world.schedule.pair(next);
     if (!pair.contact) {  // proved clear only until now
-      stepper.ask(next, now);
+      stepper.query(next, now);
       continue;
     }
 
@@ -330,10 +330,10 @@ StepReport step(World& world, double dt, const Listeners& listeners, Planner* pl
     stepper.solve(island, now);
     if (listeners.instant) listeners.instant(world, now);
 
-    // If no motion has changed, its event is gone, and it must be asked again.
+    // If no motion has changed, its event is gone, and it must be queried again.
     const int again = world.schedule.find(pair.a, pair.b);
     if (again < 0) continue;  // by now the two do not come near each other
-    if (world.schedule.pair(again).answers == pair.answers) stepper.ask(again, now);
+    if (world.schedule.pair(again).answers == pair.answers) stepper.query(again, now);
     // No gap left to spend, and still closing in: impacts would pile up without end.
     if (pair.stalled && world.schedule.pair(again).stalled) stepper.freeze(island, now);
   }

@@ -120,7 +120,7 @@ struct World {
   }
   // Whether an impulse at the body's surface can turn it, or its spin moves its surface along the normal.
   bool turns(int body) const { return effects.arms || ball_radius[bodies[body].shape] == 0; }
-  // Whether two bodies are to be asked for contacts at all: one of them moves, and one can be moved, or is a
+  // Whether two bodies are to be queried for contacts at all: one of them moves, and one can be moved, or is a
   // sensor.
   bool may_meet(int a, int b) const {
     if (bodies[a].sensor || bodies[b].sensor) return !(is_stationary(a) && is_stationary(b));
@@ -189,7 +189,7 @@ using OnSighting = std::function<void(const Sighting&)>;
 // Called after each solved instant, with the time in the frame: for tests that look between frames.
 using OnInstant = std::function<void(const World&, double time)>;
 
-// Whom a step tells what happens. Each may be empty.
+// To whom a step reports what happens. Each may be empty.
 struct Listeners {
   OnImpact impact = {};
   OnInstant instant = {};
@@ -216,7 +216,7 @@ class Planner {
 // One frame of dt seconds (> 0): from contact to contact.
 //
 // The earliest contact of all pairs is found by conservative advancement; every touching point of the bodies
-// that are connected to it is solved as one LCP; the pairs of the bodies whose motion changed are asked
+// that are connected to it is solved as one LCP; the pairs of the bodies whose motion changed are queried
 // again; and so on until no contact is left in the frame. Guarantee: at no time do two bodies come nearer
 // than a positive gap if they started so (those that start touching or overlapping by rounding come no nearer
 // than 64 rounding terms of it). Where impacts pile up so that a pair has less than a hundredth of the

@@ -237,8 +237,8 @@ bool ClearDraft::is_clear(int i, int j) {
   contacts.update(world, pair, a.start, b.start);
   const double rounding = ca::rounding_term(world.model_of(pair.a).whole(), world.model_of(pair.b).whole(),
                                             ca::PairPose(a.start, b.start));
-  const double need = 0.5 * std::min(pair.gap, 0.5 * contacts.margin()) - 64 * rounding;
-  if (check_path(world, contacts, pair, a, b, length, {.need = need}).clear) return true;
+  const double required_gap = 0.5 * std::min(pair.gap, 0.5 * contacts.margin()) - 64 * rounding;
+  if (check_path(world, contacts, pair, a, b, length, {.required_gap = required_gap}).clear) return true;
   double gap = 0;
   if (pair.gap > contacts.margin()) return false;
   for (const ContactPoint& point : contacts.points_at(world, pair, a.end, b.end, gap)) {
@@ -316,7 +316,7 @@ std::vector<int> ClearResting::meet(World& world, int a, int b, double now, worl
   return go_on(world, bodies, now);
 }
 
-void ClearResting::tell(const std::vector<world::ImpactRecord>& records, double share) {
+void ClearResting::report_impulses(const std::vector<world::ImpactRecord>& records, double share) {
   for (world::ImpactRecord record : records) {
     record.impulse.impulse *= share;
     if (share > 0 && listeners_->impact) listeners_->impact(record);
@@ -357,7 +357,7 @@ void ClearResting::end_plan_of(World& world, int body, double now, std::vector<i
     bodies.push_back(member);
   }
   const double share = (now - plan.start) / (plan.end - plan.start);
-  tell(plan.records, share);
+  report_impulses(plan.records, share);
   report_.correction_energy += share * plan.lift;
   plan.runs = false;
 }
@@ -387,7 +387,7 @@ void ClearResting::stop_what_closes(const World& world, Island& island, double n
     total += k * r;
   }
   const auto kind = impact ? ContactKind::impact : ContactKind::rest;
-  tell(records_of(island.members, before, bodies, contacts, total, now, kind), 1);
+  report_impulses(records_of(island.members, before, bodies, contacts, total, now, kind), 1);
   for (int i = 0; i < std::ssize(bodies); ++i) island.members[i].state = bodies[i];
 }
 

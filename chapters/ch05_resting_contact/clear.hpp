@@ -48,7 +48,7 @@ class ClearResting : public world::Planner {
   void stop_what_closes(const world::World& world, Island& island, double now);
   void plan(world::World& world, const Island& island, double now);
   void follow(world::World& world, const ClearDraft& draft);
-  void tell(const std::vector<world::ImpactRecord>& records, double share);
+  void report_impulses(const std::vector<world::ImpactRecord>& records, double share);
 
   Contacts contacts_;
   IslandFinder islands_;

@@ -80,7 +80,7 @@ struct PairContacts {
   bool axis_known = false;
   ca::SimplexCache simplex;
   std::int64_t used = 0;  // in which frame
-  std::int64_t plan = 0;  // which asked for it last, and where it has it
+  std::int64_t plan = 0;  // which queried it last, and where it has it
   int place = -1;
 
   int rank() const { return static_cast<int>(std::min<std::size_t>(points.size(), 6)); }

@@ -218,12 +218,12 @@ PathVerdict Courses::check(const world::World& world, const Candidate& pair, con
   ++checked_;
   constexpr double kTouching = 1.0 / 64;  // of the tolerance
   const double gap = pair.contacts->gap;
-  options.need = std::min(options.need, 0.5 * gap);
+  options.required_gap = std::min(options.required_gap, 0.5 * gap);
   if (gap <= kTouching * world.tolerance) {
     // It started like this, touching: then it need only not become less, but for rounding.
     const ca::PairPose pose(paths[at(pair.a)].start, paths[at(pair.b)].start);
-    options.need = gap - 64 * ca::rounding_term(world.model_of(pair.contacts->a).whole(),
-                                                world.model_of(pair.contacts->b).whole(), pose);
+    options.required_gap = gap - 64 * ca::rounding_term(world.model_of(pair.contacts->a).whole(),
+                                                        world.model_of(pair.contacts->b).whole(), pose);
   }
   return check_path(world, contacts_, *pair.contacts, a, b, length_, options);
 }

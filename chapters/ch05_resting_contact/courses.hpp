@@ -37,7 +37,7 @@ class Courses {
   // The member goes with these velocities.
   void go(int member, const Twist& twist);
   // Proves the paths of all pairs that have changed so much since they were proved that this says nothing any more; whether
-  // all are clear. options_of(pair): gaps stay above `need`, or half of what they were.
+  // all are clear. options_of(pair): gaps stay above `required_gap`, or half of what they were.
   template <class OptionsOf>
   bool prove(const world::World& world, OptionsOf&& options_of) {
     bool all = true;

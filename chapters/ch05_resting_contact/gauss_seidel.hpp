@@ -15,8 +15,9 @@ namespace fc::resting {
 // One sweep looks at each row once, for both: the second hides in the time that the first waits for its numbers.
 //
 // It does not see J and M. With M^-1 = L L' (L lower triangular for the turning part) and D the diagonal of J M^-1 J', it works
-// on the lines of G = D^-1/2 J L, and on what D^1/2 z does to L^-1 v. So a line both tells how fast its contact closes in and how an
-// impulse moves its bodies, it is of length one, and fits a cache line in single precision. What is told is worked out in double.
+// on the lines of G = D^-1/2 J L, and on what D^1/2 z does to L^-1 v. So a line gives both how fast its contact closes in and
+// how an impulse moves its bodies, it is of length one, and fits a cache line in single precision. What is reported is worked out
+// in double.
 class GaussSeidel {
  public:
   void clear();

@@ -20,7 +20,7 @@ std::optional<double> clash(const world::World& world, Contacts& contacts, int a
   contacts.update(world, pair, path_a.start, path_b.start);
   if (pair.gap > world.tolerance) {
     const PathVerdict verdict =
-        check_path(world, contacts, pair, path_a, path_b, dt, {.need = 0.5 * world.tolerance});
+        check_path(world, contacts, pair, path_a, path_b, dt, {.required_gap = 0.5 * world.tolerance});
     if (verdict.clear) return {};
     return verdict.time;
   }
@@ -39,10 +39,10 @@ std::vector<Clash> KinematicWatch::look(const world::World& world, Contacts& con
     if (!world.is_moving_kinematic(a)) continue;
     for (int b = 0; b < count; ++b) {
       if (b == a || world.is_dynamic(b) || (world.is_moving_kinematic(b) && b < a)) continue;
-      if (world::is_sensor_pair(world, a, b) || told_.contains({a, b})) continue;
+      if (world::is_sensor_pair(world, a, b) || reported_.contains({a, b})) continue;
       const std::optional<double> time = clash(world, contacts, a, b, dt);
       if (!time) continue;
-      told_.insert({a, b});
+      reported_.insert({a, b});
       clashes.push_back({a, b, *time});
     }
   }

@@ -22,7 +22,7 @@ class KinematicWatch {
   std::vector<Clash> look(const world::World& world, Contacts& contacts, double dt);
 
  private:
-  std::set<std::pair<int, int>> told_;
+  std::set<std::pair<int, int>> reported_;
 };
 
 }  // namespace fc::resting

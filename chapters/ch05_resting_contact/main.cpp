@@ -45,7 +45,7 @@ std::vector<Effect> explain(const Scene& scene) {
 }
 
 // frame: s, its start.
-void tell(const Scene& scene, const resting::Clash& clash, double frame) {
+void report_clash(const Scene& scene, const resting::Clash& clash, double frame) {
   const auto where = [&](int body) { return scene.bodies[static_cast<std::size_t>(body)].where.text(); };
   fmt::print(
       stderr,
@@ -75,7 +75,7 @@ int run(const Scene& scene, const RunContext& context, Summary& summary) {
     all.correction_energy += report.correction_energy;
     all.correction = std::max(all.correction, report.correction);
     all.largest_island = std::max(all.largest_island, report.largest_island);
-    for (const resting::Clash& clash : report.clashes) tell(scene, clash, frame * scene.step->dt);
+    for (const resting::Clash& clash : report.clashes) report_clash(scene, clash, frame * scene.step->dt);
     clashes += static_cast<int>(report.clashes.size());
     ++frame;
     return report.step;
@@ -116,8 +116,8 @@ int main(int argc, char** argv) {
       "Moves rigid bodies that collide, rest, slide and stack, without friction. With the key `envelope`, "
       "bodies nearer than that are in contact and go by plans: proved paths that use no gap up, with impulses that act "
       "all along. Without it, everything is as in chapter 4. Bodies that meet in one frame so often that nobody could go "
-      "from one event to the next are a pile: its contacts are solved to a residual that is told, two plans a frame, and "
-      "where paths cannot be proved they are shortened, which is told as `lost_impulse`.";
+      "from one event to the next are a pile: its contacts are solved to a residual that is reported, two plans a frame, and "
+      "where paths cannot be proved they are shortened, which is reported as `lost_impulse`.";
   chapter.example = "build/bin/ch05_resting_contact chapters/ch05_resting_contact/scenes/stack.yaml";
   chapter.explain = explain;
   chapter.run = run;

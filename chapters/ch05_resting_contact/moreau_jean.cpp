@@ -10,8 +10,9 @@
 namespace fc::resting {
 namespace {
 
-constexpr double kPush = 0.2;    // of the smaller reach: so far two bodies are pushed apart to be looked at
-constexpr double kSlack = 1e-4;  // m, by which a face's plane may tell less than the best one and be taken
+constexpr double kPush = 0.2;  // of the smaller reach: so far two bodies are pushed apart to be looked at
+constexpr double kSlack =
+    1e-4;  // m, by which a face's plane may show a smaller gap than the best one and be taken
 
 bool far_apart(const world::Bounds& a, const world::Bounds& b, double far) {
   return ((a.low - b.high).array() > far).any() || ((b.low - a.high).array() > far).any();

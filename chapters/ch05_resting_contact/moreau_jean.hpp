@@ -21,7 +21,7 @@ class Facing {
   explicit Facing(const world::World& world);
   // The points of the pair with a gap of at most `far` (m); null if their boxes are farther apart than that.
   // Gaps are negative by as much as the bodies overlap along the manifold's normal. The reference holds until
-  // the next call. Overlaps of up to a fifth of the smaller body's reach are told right.
+  // the next call. Overlaps of up to a fifth of the smaller body's reach are reported right.
   const Manifold* find(const world::World& world, int a, int b, double far);
   std::int64_t searches() const { return searches_; }
 
@@ -41,7 +41,7 @@ double smallest_gap(Facing& facing, const world::World& world, double far);
 //
 //   w = v+ + e v- >= 0,  j >= 0,  j'w = 0,     v+ = v- + dt gravity + M^-1 J' j,
 //
-// and then all bodies move on with v+ (theta = 1). Nobody asks when contacts happen, nothing looks at the
+// and then all bodies move on with v+ (theta = 1). No query says when contacts happen, nothing looks at the
 // way, and no position is ever put right.
 class MoreauJean {
  public:

@@ -91,7 +91,7 @@ double least_gap(const ca::Convex& core_a, const ca::Convex& core_b, const Path&
 std::optional<PathVerdict> by_planes(const world::World& world, const Contacts& contacts, PairContacts& pair,
                                      const Path& a, const Path& b, double dt, const PathOptions& options) {
   const ca::Convex core_a = world.model_of(pair.a).leaf(0), core_b = world.model_of(pair.b).leaf(0);
-  const double need = options.need;
+  const double required_gap = options.required_gap;
   const auto best_at = [&](double time) {
     const Pose pose_a = time == dt ? a.end : a.motion.pose_at(time),
                pose_b = time == dt ? b.end : b.motion.pose_at(time);
@@ -99,17 +99,18 @@ std::optional<PathVerdict> by_planes(const world::World& world, const Contacts& 
     return PlaneAt{time, pose_a, pose_b, nearest.normal, nearest.lower};
   };
   PlaneAt here{0, a.start, b.start, pair.axis_at(a.start, b.start), pair.axis_gap};
-  if (here.gap < need) here = best_at(0);
-  if (here.gap < need) return {};
+  if (here.gap < required_gap) here = best_at(0);
+  if (here.gap < required_gap) return {};
   const PlaneAt end = best_at(dt);
-  if (end.gap < need && options.whole) return PathVerdict{false, dt};
+  if (end.gap < required_gap && options.whole) return PathVerdict{false, dt};
   double slack = std::numeric_limits<double>::infinity();
   for (double step = dt; here.time < dt;) {
     const double time = here.time + step;
     const PlaneAt there = time > (1 - 1e-9) * dt ? end : best_at(time);
-    const double least = there.gap < need ? there.gap : least_gap(core_a, core_b, a, b, here, there, need);
-    if (least >= need) {
-      slack = std::min(slack, least - need);
+    const double least =
+        there.gap < required_gap ? there.gap : least_gap(core_a, core_b, a, b, here, there, required_gap);
+    if (least >= required_gap) {
+      slack = std::min(slack, least - required_gap);
       here = there;
       step = std::min(2 * step, dt - here.time);
       continue;
@@ -156,24 +157,24 @@ Path path_of(const world::World& world, int body, double now, double dt) {
 
 PathVerdict check_path(const world::World& world, const Contacts& contacts, PairContacts& pair, const Path& a,
                        const Path& b, double dt, const PathOptions& options) {
-  const double need = options.need;
+  const double required_gap = options.required_gap;
   const bool steady = a.steady && b.steady;
   if (steady) {
     const double distance =
         dt * ((b.velocity - a.velocity).norm() + 0.5 * dt * (b.acceleration - a.acceleration).norm() +
               a.spin_rate * a.reach + b.spin_rate * b.reach);
-    if (pair.gap - distance >= need) return {true, dt, pair.gap - distance - need};
+    if (pair.gap - distance >= required_gap) return {true, dt, pair.gap - distance - required_gap};
   }
   if (steady && pair.known && Contacts::convex(world, pair)) {
     if (!pair.axis_known) pair.axis_gap = contacts.axis_gap(world, pair, a.start, b.start);
     pair.axis_known = true;
-    if (pair.axis_gap >= need) {  // the plane that is known, without a search
+    if (pair.axis_gap >= required_gap) {  // the plane that is known, without a search
       const Moving moving_a(a, 0, a.start), moving_b(b, 0, b.start);
       const double sag =
           dt * dt / 8 *
           (pair.of_b ? bend_seen_from(moving_b, moving_a, dt) : bend_seen_from(moving_a, moving_b, dt));
       const double least = least_between(pair.axis_gap, contacts.axis_gap(world, pair, a.end, b.end), sag);
-      if (least >= need) return {true, dt, least - need};
+      if (least >= required_gap) return {true, dt, least - required_gap};
     }
     const std::optional<PathVerdict> verdict = by_planes(world, contacts, pair, a, b, dt, options);
     if (verdict && (verdict->clear || options.by_planes)) return *verdict;
@@ -181,8 +182,8 @@ PathVerdict check_path(const world::World& world, const Contacts& contacts, Pair
   hulls::ReachOptions reaches;
   reaches.interval = dt;
   reaches.tolerance = world.tolerance;
-  reaches.target = need;
-  reaches.slack = 0.25 * std::max(need, world.tolerance);
+  reaches.target = required_gap;
+  reaches.slack = 0.25 * std::max(required_gap, world.tolerance);
   reaches.start = -1;
   reaches.max_pairs = std::min(world.max_pairs, options.most_pairs);
   const hulls::Reach reach = hulls::first_reach(world.model_of(pair.a), a.motion, world.model_of(pair.b),

@@ -22,22 +22,22 @@ Path path_of(const world::World& world, int body, double now, double dt);
 
 struct PathVerdict {
   bool clear = false;
-  double time = 0;   // s, not clear: when the gap has come down to about `need`
-  double slack = 0;  // m, clear: by so much the gap is proved to stay above `need`
+  double time = 0;   // s, not clear: when the gap has come down to about `required_gap`
+  double slack = 0;  // m, clear: by so much the gap is proved to stay above `required_gap`
 };
 
 // How hard to try.
 struct PathOptions {
-  double need = 0;  // m
+  double required_gap = 0;  // m
   std::int64_t most_pairs =
       std::numeric_limits<std::int64_t>::max();  // of nodes; and no more than the scene's limit
   bool by_planes = false;  // of convex pairs: no advancement; the time is how far planes prove
   bool whole = false;      // and if the end is not clear, that is all: the time is the whole
 };
 
-// Whether the gap stays at least `need` for dt seconds; proved, or found to be reached. In this order:
+// Whether the gap stays at least `required_gap` for dt seconds; proved, or found to be reached. In this order:
 //
-//   1. by speed       gap - dt |largest relative velocity of two points| >= need;
+//   1. by speed       gap - dt |largest relative velocity of two points| >= required_gap;
 //   2. by planes      (convex pairs) that go with a body, or turn evenly from the best at the start to the best at the end: if
 //                     the gap along one is s_0 and s_1 at the ends of an interval dt, then at the part x of it the gap is at
 //                     least (1 - x) s_0 + x s_1 - k dt^2 x (1 - x) / 2, where k bounds how much the path of any point is bent,

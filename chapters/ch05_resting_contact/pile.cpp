@@ -310,25 +310,25 @@ Planned PilePlanner::take(const world::World& world) {
     ++result.pushing;
     const bool kinematic =
         world.is_moving_kinematic(pair.contacts->a) || world.is_moving_kinematic(pair.contacts->b);
-    if (!kinematic && !options_.told) continue;
-    PlannedRow told;
-    told.contact = contact_of(world, row);
-    if (kinematic) result.kinematic_work += lcp::kinematic_work(swept, told.contact, z + back_[at(i)]);
-    if (!options_.told) continue;
-    told.impulse = z * told.contact.normal;
-    told.back = back_[at(i)] * told.contact.normal;
-    told.before = row.before * told.contact.normal;
-    told.after = lcp::relative_velocity(bounced, told.contact);
-    told.key = point_of(row).key;
-    told.arrives = row.arrives;
+    if (!kinematic && !options_.report_rows) continue;
+    PlannedRow reported;
+    reported.contact = contact_of(world, row);
+    if (kinematic) result.kinematic_work += lcp::kinematic_work(swept, reported.contact, z + back_[at(i)]);
+    if (!options_.report_rows) continue;
+    reported.impulse = z * reported.contact.normal;
+    reported.back = back_[at(i)] * reported.contact.normal;
+    reported.before = row.before * reported.contact.normal;
+    reported.after = lcp::relative_velocity(bounced, reported.contact);
+    reported.key = point_of(row).key;
+    reported.arrives = row.arrives;
     if (row.arrives) {
       const Path &a = courses_.paths[at(pair.a)], &b = courses_.paths[at(pair.b)];
-      told.contact.gap = point_of(row).gap_at(a.end, b.end);
-      told.contact.point = point_of(row).middle(a.end, b.end);
+      reported.contact.gap = point_of(row).gap_at(a.end, b.end);
+      reported.contact.point = point_of(row).middle(a.end, b.end);
     }
-    told.contact.body_a = pair.contacts->a;
-    told.contact.body_b = pair.contacts->b;
-    result.rows.push_back(told);
+    reported.contact.body_a = pair.contacts->a;
+    reported.contact.body_b = pair.contacts->b;
+    result.rows.push_back(reported);
   }
   double gained = -result.kinematic_work, size = 0;
   for (std::size_t i = 0; i < swept.size(); ++i) {

@@ -371,22 +371,22 @@ Planned PlanMaker::take() {
     ++result.pushing;
     result.kinematic_work += lcp::kinematic_work(fast_, row.contact, row.impulse);
     result.early_work += lcp::kinematic_work(fast_, row.contact, early[r]);
-    PlannedRow told;
-    told.contact = row.contact;
-    told.impulse = row.impulse;
-    told.early = early[r];
-    told.before = lcp::relative_velocity(free, row.contact);
-    told.after = lcp::relative_velocity(fast_, row.contact);
-    told.key = row.point.key;
-    told.arrives = row.arrives;
+    PlannedRow reported;
+    reported.contact = row.contact;
+    reported.impulse = row.impulse;
+    reported.early = early[r];
+    reported.before = lcp::relative_velocity(free, row.contact);
+    reported.after = lcp::relative_velocity(fast_, row.contact);
+    reported.key = row.point.key;
+    reported.arrives = row.arrives;
     if (row.arrives) {
-      told.contact.gap = row.end_gap;
-      told.contact.point = row.point.middle(courses_.paths[at(row.contact.body_a)].end,
+      reported.contact.gap = row.end_gap;
+      reported.contact.point = row.point.middle(courses_.paths[at(row.contact.body_a)].end,
                                             courses_.paths[at(row.contact.body_b)].end);
     }
-    told.contact.body_a = courses_.members[at(row.contact.body_a)].number;
-    told.contact.body_b = courses_.members[at(row.contact.body_b)].number;
-    result.rows.push_back(told);
+    reported.contact.body_a = courses_.members[at(row.contact.body_a)].number;
+    reported.contact.body_b = courses_.members[at(row.contact.body_b)].number;
+    result.rows.push_back(reported);
   }
   for (std::size_t i = 0; i < courses_.members.size(); ++i) {
     const RigidBody &path = path_[i], &fast = fast_[i], &end = ends[i];

@@ -40,7 +40,7 @@ world::Plan planned_motion(const Member& member, const Twist& path, const Twist&
 // The gap (m) that a contact with this gap should have at a plan's end, where h is the margin: nearer to h / 2.
 double wanted_gap(double gap, double margin);
 
-// Makes plans. One at a time; what the last make() found can be asked until the next.
+// Makes plans. One at a time; what the last make() found can be queried until the next.
 //
 // From v, the velocities now, and with u, the mean velocity of free flight in the plan's time (v + dt g/2 without drag):
 //   1. push    velocities w = u + M^-1 J'z: z >= 0, every gap at the plan's END >= min(gap, margin/2), z only where it is that;

@@ -24,21 +24,21 @@ void RestRecords::add(const world::ImpactRecord& record, std::uint64_t key) {
              b = static_cast<std::uint64_t>(record.contact.body_b);
   int& last = last_of_.try_emplace(a << 32 | b, -1).first->second;
   for (int i = last; i >= 0; i = records_[at(i)].next) {
-    Told& told = records_[at(i)];
-    if (told.key != key || (told.record.contact.normal - record.contact.normal).norm() > kSameNormal)
+    Reported& reported = records_[at(i)];
+    if (reported.key != key || (reported.record.contact.normal - record.contact.normal).norm() > kSameNormal)
       continue;
-    told.record.impulse.impulse += record.impulse.impulse;
-    told.record.impulse.v_after = record.impulse.v_after;
-    told.record.tangential += record.tangential;
-    told.record.slip_after = record.slip_after;
+    reported.record.impulse.impulse += record.impulse.impulse;
+    reported.record.impulse.v_after = record.impulse.v_after;
+    reported.record.tangential += record.tangential;
+    reported.record.slip_after = record.slip_after;
     return;
   }
   records_.push_back({record, key, last});
   last = size() - 1;
 }
 
-void RestRecords::tell(const world::OnImpact& listener) const {
-  for (const Told& told : records_) listener(told.record);
+void RestRecords::report(const world::OnImpact& listener) const {
+  for (const Reported& reported : records_) listener(reported.record);
 }
 
 }  // namespace fc::resting

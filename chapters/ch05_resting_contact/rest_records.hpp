@@ -1,4 +1,4 @@
-// Contacts that last, told once in a frame: what a plan does to one, and what the instant at the plan's end does.
+// Contacts that last, reported once in a frame: what a plan does to one, and what the instant at the plan's end does.
 #pragma once
 
 #include <unordered_map>
@@ -17,16 +17,16 @@ class RestRecords {
   void clear();
   // `key` names the point among those of its two bodies. Added to what is known of it, if its normal has not changed.
   void add(const world::ImpactRecord& record, std::uint64_t key);
-  void tell(const world::OnImpact& listener) const;
+  void report(const world::OnImpact& listener) const;
   int size() const { return static_cast<int>(records_.size()); }
 
  private:
-  struct Told {
+  struct Reported {
     world::ImpactRecord record;
     std::uint64_t key;
     int next;  // of the same two bodies, or -1
   };
-  std::vector<Told> records_;
+  std::vector<Reported> records_;
   std::unordered_map<std::uint64_t, int> last_of_;  // of two bodies
 };
 

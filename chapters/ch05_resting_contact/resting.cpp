@@ -27,10 +27,10 @@ constexpr double kNearlyAll = 0.75;
 // impulses that cancel.
 constexpr double kStill = 1e-9;
 
-// What happens at the frame's end is told a little before it (of a frame): it belongs to this frame, whose velocities it makes.
+// What happens at the frame's end is reported a little before it (of a frame): it belongs to this frame, whose velocities it makes.
 constexpr double kBeforeEnd = 1e-9;
 
-double told_at(double now, double dt) {
+double reported_time(double now, double dt) {
   return std::min(now, (1 - kBeforeEnd) * dt);
 }
 
@@ -82,7 +82,7 @@ RestReport Resting::step(world::World& world, const world::Listeners& listeners)
   report.max_penetration = std::max(report.max_penetration, -std::min(0.0, report_.smallest_gap));
   report_.step = report;
   report_.searched = contacts_.searched() - searched;
-  if (listeners.impact) records_.tell(listeners.impact);
+  if (listeners.impact) records_.report(listeners.impact);
   return report_;
 }
 
@@ -201,7 +201,7 @@ void Resting::join_pile(const Island& island, bool must) {
   if (must) piles_.unite(bodies);
 }
 
-// Its bodies stand where they are now, with the velocities that they have; what its rows did until now is told.
+// Its bodies stand where they are now, with the velocities that they have; what its rows did until now is reported.
 void Resting::end_plan(Instant& instant, int number) {
   Running& plan = plans_[at(number)];
   const double share = (instant.now - plan.start) / (plan.end - plan.start);
@@ -218,7 +218,7 @@ void Resting::end_plan(Instant& instant, int number) {
     instant.bodies.push_back(member);
   }
   for (const PlannedRow& row : plan.what.rows) {
-    const double end = told_at(instant.now, dt_);
+    const double end = reported_time(instant.now, dt_);
     const Vec3 acted = whole ? row.impulse : Vec3(share * row.early);
     if (acted.dot(row.contact.normal) > 0)
       records_.add(record_of(row.arrives ? end : plan.start, row.contact, row.before, row.after, acted,
@@ -238,7 +238,7 @@ void Resting::end_plan(Instant& instant, int number) {
 bool Resting::resolve(Instant& instant, Island& island) {
   InstantOptions options;
   options.rest_speed = envelope() / dt_;
-  options.time = told_at(instant.now, dt_);
+  options.time = reported_time(instant.now, dt_);
   options.guess = 0.5 * dt_;
   options.bounces = [&](int body) { return meetings_[at(body)] < kMostBounces; };
   options.solver = options_.solver;
@@ -320,7 +320,7 @@ void Resting::go_on(Instant& instant, PileList::Pile& pile) {
   options.frame = dt_;
   options.sweeps = options_.sweeps;
   options.visits = options_.visits;
-  options.told = static_cast<bool>(instant.listeners.impact);
+  options.report_rows = static_cast<bool>(instant.listeners.impact);
   Planned planned;
   double length = pile.length > kNearlyAll * left ? left : pile.length;
   for (bool stopped = false;;) {

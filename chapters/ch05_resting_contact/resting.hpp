@@ -29,7 +29,7 @@ struct RestReport {
                       // positions, and by the plans' error, which is of second order
   int shortened = 0;  // bodies of piles whose paths were shortened
   double lost_impulse = 0;          // N s, the momentum that this took
-  std::vector<Clash> clashes = {};  // of kinematic bodies, first told in this frame; times in the frame
+  std::vector<Clash> clashes = {};  // of kinematic bodies, first reported in this frame; times in the frame
 };
 
 struct RestOptions {
@@ -64,7 +64,7 @@ class Resting : public world::Planner {
     double start = 0, end = 0;
     Planned what;
   };
-  // An instant, and what is to be told of it.
+  // An instant, and what is to be reported of it.
   struct Instant {
     world::World& world;
     double now;

@@ -78,7 +78,7 @@ struct Run {
   double second_ns(double seconds) const;  // the least, for a second that is simulated
 };
 
-// Builds the world, and runs it `repeats` times; tells `look` of each frame of the first. Gaps are measured
+// Builds the world, and runs it `repeats` times; reports each frame of the first to `look`. Gaps are measured
 // by one judge for all methods, Facing, which takes faces that lie over each other: not for heaps.
 using Look = std::function<void(const world::World&, const Frame&)>;
 Run run(const Setting& setting, int repeats, const Look& look = {});

@@ -12,7 +12,7 @@ namespace fc::resting {
 namespace {
 
 constexpr double kTolerance = 1e-8;  // m
-constexpr double kFar = 0.05;        // m: gaps above this are not told
+constexpr double kFar = 0.05;        // m: gaps above this are not reported
 
 int add_shape(Scene& scene, const char* name, const auto& geometry, double mass) {
   ShapeSpec shape;

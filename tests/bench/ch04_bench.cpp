@@ -32,7 +32,7 @@ struct Outcome {
   Verdict verdict;
 };
 
-// Runs the whole thing some times; `counts` tells which frames are timed, `judge` looks at the states.
+// Runs the whole thing some times; `counts` says which frames are timed, `judge` looks at the states.
 Outcome simulate(const MakeEngine& make, int bodies, int warm_up, int frames,
                  const std::function<bool(const Engine&)>& counts,
                  const std::function<Verdict(const Frames&)>& judge) {

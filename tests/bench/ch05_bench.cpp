@@ -4,7 +4,7 @@
 // a millimetre. Meshes (a chain, rings, a bunny in a bowl) are ours alone, and so is their judge: the certified gap.
 //
 // Of ours the rows also say what its step does at a price: `shortened_percent` of the bodies a frame, `lost_ms`, and
-// `energy_up_J`, the largest rise in a frame beyond what corrections tell.
+// `energy_up_J`, the largest rise in a frame beyond what corrections report.
 //
 // --frames=N: no more than N frames of each, to see that all of it runs.
 #include <algorithm>
@@ -27,7 +27,7 @@ using namespace fc::bench;
 constexpr double kFrame = 1.0 / 60;  // s
 constexpr int kFrames = 600, kMeshFrames = 120, kLast = 60;
 constexpr double kDeep = 1e-3;   // m: an overlap that counts as a failure
-constexpr double kLongest = 90;  // s: who takes longer is stopped, and `frames` tells how far it got
+constexpr double kLongest = 90;  // s: who takes longer is stopped, and `frames` says how far it got
 
 class Ours : public Engine {
  public:
@@ -40,7 +40,7 @@ class Ours : public Engine {
   int contacts() const override { return report_.step.contacts; }
   double overlap() const { return report_.step.max_penetration; }  // m, in the last step
 
-  // Adds up what the last step told; not a part of its time.
+  // Adds up what the last step reported; not a part of its time.
   void look() {
     ++frames_;
     const double now = energy();
@@ -51,7 +51,7 @@ class Ours : public Engine {
     lost_ += report_.step.lost_time;
     shortened_ += report_.shortened;
   }
-  void tell(std::map<std::string, double>& more) const {
+  void report(std::map<std::string, double>& more) const {
     more["residual"] = residual_;
     more["lost_ms"] = 1e3 * lost_;
     more["shortened_percent"] = 100 * shortened_ / std::max(1, frames_ * moving_);
@@ -113,7 +113,7 @@ Outcome simulate(const Scene& scene, const std::vector<Shape>& shapes, int frame
   }
   more["drift_mm"] = 1e3 * drift;
   more["energy_J"] = energy;
-  if (ours) ours->tell(more);
+  if (ours) ours->report(more);
   std::sort(outcome.ns.begin(), outcome.ns.end());
   return outcome;
 }

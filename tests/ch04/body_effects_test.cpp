@@ -66,7 +66,7 @@ TEST(Kinematic, ASqueezeIsReported) {
 }
 
 // Kinematic and static bodies pass through each other: nobody can yield.
-TEST(Kinematic, IsNotAskedAboutWhatCannotYield) {
+TEST(Kinematic, IsNotQueriedAboutWhatCannotYield) {
   auto world = make_world(piston +
                           "  - {shape: wall, static: true, position: [2, 0, 0]}\n"
                           "  - {shape: wall, kinematic: true, position: [3, 0, 0], spin: [0, 0, 1]}\n");

@@ -102,18 +102,18 @@ TEST(BoundsTree, HoldsBoxesThatAreAllTheSame) {
 TEST(Schedule, GivesTheEarliestEventThatIsStillTrue) {
   Schedule schedule;
   schedule.begin(std::vector<Bounds>(6));
-  const auto ask = [&](int number, double time) {
+  const auto query = [&](int number, double time) {
     schedule.pair(number).time = time;
     schedule.answered(number, 1.0);
   };
   const int late = schedule.open(1, 2), soon = schedule.open(4, 3), never = schedule.open(0, 5);
-  ask(late, 0.5);
-  ask(soon, 0.25);
-  ask(never, 1.0);  // not in this frame
+  query(late, 0.5);
+  query(soon, 0.25);
+  query(never, 1.0);  // not in this frame
   EXPECT_EQ(schedule.find(3, 4), soon);
   EXPECT_EQ(schedule.find(4, 3), soon);
   EXPECT_EQ(schedule.find(1, 4), -1);
-  ask(late, 0.125);  // it was asked again: the first answer is void
+  query(late, 0.125);  // it was queried again: the first answer is void
   EXPECT_EQ(schedule.next(), late);
   schedule.replace(3, Bounds{});  // its pair with 4 is no more
   EXPECT_EQ(schedule.find(3, 4), -1);

@@ -19,7 +19,7 @@ std::string number(double x) {
 
 // --- bounces ---
 
-// A ball from 2 m, restitution 0.7: the k-th touch comes at t1 (1 + 2 (e + ... + e^(k-1))). A contact is told
+// A ball from 2 m, restitution 0.7: the k-th touch comes at t1 (1 + 2 (e + ... + e^(k-1))). A contact is reported
 // half a tolerance early, so at the speed v by half the tolerance over v: that is below a nanosecond down to
 // 5 cm/s, the fourteenth touch.
 TEST(BouncingBall, TouchesInClosedForm) {

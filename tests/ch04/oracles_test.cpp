@@ -112,9 +112,9 @@ TEST(Balls, MeetWhenTheSearchSaysSo) {
   EXPECT_GT(hits, 10);
 }
 
-// What happens in one corner asks nobody in another.
+// What happens in one corner queries no pair in another.
 TEST(Cost, OfAnImpactDoesNotGrowWithBodiesFarAway) {
-  const auto pairs_asked = [](int bystanders) {
+  const auto pairs_queried = [](int bystanders) {
     std::string text =
         "step: {dt: 0.01, duration: 1}\nrestitution: 1\nshapes:\n  ball: {sphere: {radius: 0.5}, mass: "
         "1}\nbodies:\n"
@@ -130,7 +130,7 @@ TEST(Cost, OfAnImpactDoesNotGrowWithBodiesFarAway) {
     for (const auto& report : events.reports) pairs += report.pairs;
     return pairs;
   };
-  EXPECT_EQ(pairs_asked(0), pairs_asked(300));
+  EXPECT_EQ(pairs_queried(0), pairs_queried(300));
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ using fc::Vec3;
 // What must hold in each frame of any scene: the worst of all frames.
 struct Laws {
   double newton = 0;        // |m (v - v before) - m g dt - impulses|, of the sum of sizes
-  double rise = 0;          // J, of the energy, beyond what corrections tell
+  double rise = 0;          // J, of the energy, beyond what corrections report
   double highest = 0;       // J, of the energy less all corrections, over that of the start
   double across = 0;        // envelopes, the widest gap with an impulse
   double slowest = 0;       // s, of a frame
@@ -36,7 +36,7 @@ constexpr double kTooSlow = 5;  // s, of a frame: no need to see the rest
 // Steps the simulation and watches.
 Laws follow(Simulation& sim, double seconds, const std::function<void()>& look = {}) {
   Laws worst;
-  const double start = sim.kinetic() + potential_of(sim), told = sim.corrected;
+  const double start = sim.kinetic() + potential_of(sim), reported = sim.corrected;
   const int frames = static_cast<int>(std::lround(seconds / sim.dt));
   for (int frame = 0; frame < frames; ++frame) {
     const double before = sim.kinetic() + potential_of(sim);
@@ -70,7 +70,7 @@ Laws follow(Simulation& sim, double seconds, const std::function<void()>& look =
     }
     const double now = sim.kinetic() + potential_of(sim);
     worst.rise = std::max(worst.rise, now - before - sim.last.correction_energy);
-    worst.highest = std::max(worst.highest, now - (sim.corrected - told) - start);
+    worst.highest = std::max(worst.highest, now - (sim.corrected - reported) - start);
     worst.slowest = std::max(worst.slowest, 1e-9 / kSlower * static_cast<double>(sim.last.step.step_ns));
     worst.shortened += sim.last.shortened;
     worst.lost_impulse += sim.last.lost_impulse;
@@ -134,7 +134,7 @@ void expect_free_fall_of_a_chain(int arc, int around) {
   const double weight = 9.81 * sim.body(1).mass;
   const Laws laws = follow(sim, 0.36);
   expect_laws(sim, laws, 64 * weight * 0.63, "66 links");
-  // What a plan borrows from its end is not always taken back there, with so many contacts: it is told.
+  // What a plan borrows from its end is not always taken back there, with so many contacts: it is reported.
   EXPECT_LE(sim.corrected, 64 * weight * sim.resting.envelope() + 0.01 * sim.kinetic()) << "J";
   EXPECT_LT(sim.energy(), 0) << "J";
   for (int i = 18; i < 48; ++i)  // nearer to the ends the slack is used up before

@@ -23,11 +23,11 @@ struct Laws {
   double newton = 0;  // of each body, as a share of the momenta that took part
   double rise =
       0;  // of energy, beyond what corrections lift and kinematic bodies do, as a share of what there was
-  double told = 0;     // J, of corrections
-  double overlap = 0;  // m, at a frame's end
-  double across = 0;   // of the margin: the widest gap over which an impulse acts
-  double lost = 0;     // s
-  double ms = 0;       // of the whole run
+  double reported = 0;  // J, of corrections
+  double overlap = 0;   // m, at a frame's end
+  double across = 0;    // of the margin: the widest gap over which an impulse acts
+  double lost = 0;      // s
+  double ms = 0;        // of the whole run
   int plans = 0, halved = 0;
 };
 
@@ -98,7 +98,7 @@ struct Watched {
     }
     const double rise = energy() - before - work - report.correction_energy;
     if (size > 0) worst.rise = std::max(worst.rise, rise / size);
-    worst.told += report.correction_energy;
+    worst.reported += report.correction_energy;
     worst.overlap = std::max(worst.overlap, overlap());
     worst.lost += report.step.lost_time;
     worst.ms += 1e-6 * static_cast<double>(report.step.step_ns);
@@ -131,8 +131,8 @@ struct Both {
 
 std::string text(const Laws& w) {
   return fmt::format(
-      "newton {:.1e} rise {:.1e} told {:.1e} J overlap {:.1e} across {:.4f} lost {:.1e} plans {} halved {} {:.0f} ms",
-      w.newton, w.rise, w.told, w.overlap, w.across, w.lost, w.plans, w.halved, w.ms);
+      "newton {:.1e} rise {:.1e} reported {:.1e} J overlap {:.1e} across {:.4f} lost {:.1e} plans {} halved {} {:.0f} ms",
+      w.newton, w.rise, w.reported, w.overlap, w.across, w.lost, w.plans, w.halved, w.ms);
 }
 
 int from_environment(const char* name, int otherwise) {

@@ -9,7 +9,7 @@ namespace {
 using namespace fc_test;
 
 // A kinematic plate pushes two boxes against a wall, and cannot: nobody is run through, neither by the exact
-// solution nor in a pile, and what the plate does on the way is told.
+// solution nor in a pile, and what the plate does meanwhile is reported.
 TEST(KinematicBody, APlateThatCannotGoOnIsStopped) {
   for (const double most_work : {2e5, 0.0}) {
     Simulation s(
@@ -56,9 +56,9 @@ TEST(Impact, WhatRestsDoesNotHop) {
   }
 }
 
-// Nothing stops a kinematic body that goes into what cannot give way: that is told, once, with the time. One that slides along
+// Nothing stops a kinematic body that goes into what cannot give way: that is reported, once, with the time. One that slides along
 // such a body, as on a floor, goes into nothing.
-TEST(KinematicBody, IntoWhatCannotGiveWayIsTold) {
+TEST(KinematicBody, IntoWhatCannotGiveWayIsReported) {
   Simulation s(
       "step: {dt: 0.01, duration: 1}\nenvelope: 5.0e-4\nshapes:\n  box: {box: {size: [1, 1, 1]}, mass: 2}\n"
       "  floor: {box: {size: [10, 10, 1]}}\n  plate: {box: {size: [0.001, 1, 1]}}\nbodies:\n"
@@ -67,27 +67,27 @@ TEST(KinematicBody, IntoWhatCannotGiveWayIsTold) {
       "  - {shape: plate, static: true, position: [0, 0, 0.5]}\n"
       "  - {shape: box, kinematic: true, position: [4, 0, 10], velocity: [0, 0, -500]}\n",
       1 / 60.0);
-  struct Told {
+  struct Reported {
     int kinematic, other;
     double time;
   };
-  std::vector<Told> told;
+  std::vector<Reported> reported;
   for (int frame = 0; frame < 150; ++frame) {
     s.run(1 / 60.0);
     for (const auto& clash : s.last.clashes)
-      told.push_back({clash.kinematic, clash.other, frame / 60.0 + clash.time});
+      reported.push_back({clash.kinematic, clash.other, frame / 60.0 + clash.time});
   }
-  ASSERT_EQ(told.size(), 2U);
-  EXPECT_EQ(told[0].kinematic, 3);
-  EXPECT_EQ(told[0].other, 1) << "within one frame it is through";
-  EXPECT_NEAR(told[0].time, 9.5 / 500, 1e-6);
-  EXPECT_EQ(told[1].kinematic, 0);
-  EXPECT_EQ(told[1].other, 2);
-  EXPECT_NEAR(told[1].time, 1.0095, 1e-5);
+  ASSERT_EQ(reported.size(), 2U);
+  EXPECT_EQ(reported[0].kinematic, 3);
+  EXPECT_EQ(reported[0].other, 1) << "within one frame it is through";
+  EXPECT_NEAR(reported[0].time, 9.5 / 500, 1e-6);
+  EXPECT_EQ(reported[1].kinematic, 0);
+  EXPECT_EQ(reported[1].other, 2);
+  EXPECT_NEAR(reported[1].time, 1.0095, 1e-5);
 }
 
 // Times are those of the frame, though a row of a path cuts it in parts.
-TEST(KinematicBody, IsToldInTimeOfTheFrame) {
+TEST(KinematicBody, IsReportedInTimeOfTheFrame) {
   const auto file = scratch("kinematic") / "path.csv";
   std::ofstream(file)
       << "t,px,py,pz,qw,qx,qy,qz\n0,0,0,0,1,0,0,0\n0.505,0,0,0,1,0,0,0\n1.505,1,0,0,1,0,0,0\n";

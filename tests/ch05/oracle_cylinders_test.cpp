@@ -109,7 +109,7 @@ double momentum_of(const Simulation& sim) {  // N s, upwards
 
 // Lying in eight layers of eight, each in the dips of the one below, with a little room; they fall into
 // place. That is a pile: some 600 rows, solved by sweeps to a residual of about a thousandth. What that
-// leaves may not make energy that is not told. Walls push sideways, so that the floor's impulses are the weight's and the
+// leaves may not make energy that is not reported. Walls push sideways, so that the floor's impulses are the weight's and the
 // change of momentum, exactly, whatever the residual; in the last second, when they lie, that is the weight.
 TEST(Cylinders, PiledBetweenWalls) {
   const fc::Scene scene =

@@ -56,7 +56,7 @@ struct Random {
   Quat rotation() { return Quat(1.5 * (*this)(), (*this)(), (*this)(), (*this)()).normalized(); }
 };
 
-// Places B beside A, along a random direction, with about the gap that is asked for.
+// Places B beside A, along a random direction, with about the gap that is wanted.
 bool place(fc::world::World& world, Random& random, double gap) {
   fc::RigidBody &a = world.bodies[0].state, &b = world.bodies[1].state;
   a.position = random.vector();
@@ -126,7 +126,7 @@ TEST(Manifold, OctagonOfTwoSquares) {
 // Whatever is called clear is clear, at two hundred times in between; what is not comes as near as that.
 TEST(Path, ProvesOnlyWhatIsClear) {
   Random random(11);
-  const double dt = 1 / 60.0, need = 1e-4;
+  const double dt = 1 / 60.0, required_gap = 1e-4;
   const char* const shapes[] = {"box", "slab", "pill", "wedge"};
   int clear = 0, reached = 0, turning = 0, by_planes = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
@@ -146,28 +146,29 @@ TEST(Path, ProvesOnlyWhatIsClear) {
     contacts.update(world, pair, a.pose(), b.pose());
     const fc::resting::Path path_a = fc::resting::path_of(world, 0, 0, dt),
                             path_b = fc::resting::path_of(world, 1, 0, dt);
-    const auto verdict = fc::resting::check_path(world, contacts, pair, path_a, path_b, dt, {.need = need});
+    const auto verdict =
+        fc::resting::check_path(world, contacts, pair, path_a, path_b, dt, {.required_gap = required_gap});
     const fc::ca::Motion motion_a = world.motion(0, 0), motion_b = world.motion(1, 0);
     const auto gap_at = [&](double t) { return distance(world, motion_a.pose_at(t), motion_b.pose_at(t)); };
     double least = 1e300;
     for (int k = 0; k <= 200; ++k) least = std::min(least, gap_at(dt * k / 200));
     if (verdict.clear) {
-      EXPECT_GE(least, need + verdict.slack - 1e-7) << "trial " << trial;
+      EXPECT_GE(least, required_gap + verdict.slack - 1e-7) << "trial " << trial;
       ++clear;
       turning += together && a.spin.norm() > 2;
     } else {
-      EXPECT_LE(gap_at(verdict.time), 1.3 * need) << "trial " << trial;
+      EXPECT_LE(gap_at(verdict.time), 1.3 * required_gap) << "trial " << trial;
       ++reached;
     }
     // Planes alone prove less; but what they do prove, until that time, is clear.
-    const auto planes =
-        fc::resting::check_path(world, contacts, pair, path_a, path_b, dt, {.need = need, .by_planes = true});
+    const auto planes = fc::resting::check_path(world, contacts, pair, path_a, path_b, dt,
+                                                {.required_gap = required_gap, .by_planes = true});
     by_planes += planes.clear;
     EXPECT_TRUE(verdict.clear || !planes.clear) << "trial " << trial;
     for (int k = 0; k <= 200; ++k) {
       const double t = dt * k / 200;
       if (t <= planes.time) {
-        EXPECT_GE(gap_at(t), need + planes.slack - 1e-7) << "trial " << trial;
+        EXPECT_GE(gap_at(t), required_gap + planes.slack - 1e-7) << "trial " << trial;
       }
     }
   }

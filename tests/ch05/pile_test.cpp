@@ -151,7 +151,7 @@ TEST(GaussSeidel, ForgetsWhatIsDropped) {
 }
 
 // Heaps: nothing overlaps in any frame, says the second opinion; energy only goes down, but for what the
-// correction of gaps adds and tells.
+// correction of gaps adds and reports.
 TEST(Heap, NothingOverlaps) {
   const std::filesystem::path scenes = FC_SOURCE_DIR "/chapters/ch05_resting_contact/scenes";
   for (const std::string scene : {"heap", "mixed"}) {
@@ -173,7 +173,7 @@ TEST(Heap, NothingOverlaps) {
       lost += cell(row, "lost_time");
       EXPECT_GT(cell(row, "min_gap"), 0) << scene;
     }
-    EXPECT_LE(risen, 1e-9 * cell(0, "energy")) << scene << ": J, that no correction tells";
+    EXPECT_LE(risen, 1e-9 * cell(0, "energy")) << scene << ": J, that no correction reports";
     EXPECT_EQ(lost, 0) << scene << ": s";
   }
 }

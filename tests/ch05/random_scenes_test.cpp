@@ -131,7 +131,7 @@ double deepest(const fc::world::World& world) {
 struct Worst {
   double lost = 0, rise = 0, newton = 0, ms = 0, gap = 0, impulse = 0;
   int shortened = 0;
-  double lost_impulse = 0, told = 0;
+  double lost_impulse = 0, reported = 0;
 };
 
 fc::Scene read_rest_scene(const std::string& text) {
@@ -183,9 +183,9 @@ std::string broken_by(Worst& worst, const fc::Scene& scene) {
     worst.gap = std::max(worst.gap, widest / resting.envelope());
     worst.shortened += report.shortened;
     worst.lost_impulse += report.lost_impulse;
-    worst.told = std::max(worst.told, report.correction_energy / before.size);
+    worst.reported = std::max(worst.reported, report.correction_energy / before.size);
     if (rise > 1e-9 * before.size)
-      fault(frame, fmt::format("energy rises by {:.3g} of {:.3g} J, told {:.3g}",
+      fault(frame, fmt::format("energy rises by {:.3g} of {:.3g} J, reported {:.3g}",
                                rise + report.correction_energy, before.size, report.correction_energy));
     if (report.correction_energy > 0.02 * before.size)
       fault(frame, fmt::format("corrections add {:.3g} of {:.3g} J", report.correction_energy, before.size));
@@ -209,7 +209,7 @@ std::string broken_by(Worst& worst, const fc::Scene& scene) {
 TEST(RandomScenes, KeepTheLaws) {
   const int first = from_environment("FC_FIRST", 1), count = from_environment("FC_SCENES", kScenes);
   int bad = 0, shortened = 0;
-  double lost_impulse = 0, told = 0;
+  double lost_impulse = 0, reported = 0;
   for (int seed = first; seed < first + count; ++seed) {
     const std::string text = random_scene(static_cast<unsigned>(seed));
     const fc::Scene scene = read_rest_scene(text);
@@ -224,7 +224,7 @@ TEST(RandomScenes, KeepTheLaws) {
     if (!faults.empty()) ++bad;
     if (worst.shortened > 0) ++shortened;
     lost_impulse += worst.lost_impulse;
-    told = std::max(told, worst.told);
+    reported = std::max(reported, worst.reported);
     if (!faults.empty() && bad <= 12)
       ADD_FAILURE() << fmt::format("seed {}: bodies {}, dt {:.4f}, shortened {}\n", seed, scene.bodies.size(),
                                    scene.step->dt, worst.shortened)
@@ -232,7 +232,7 @@ TEST(RandomScenes, KeepTheLaws) {
   }
   std::cout << bad << " of " << count << " scenes break a law; in " << shortened
             << " paths are shortened, which takes " << lost_impulse
-            << " N s; most that corrections add in a frame: " << told << " of the energy\n";
+            << " N s; most that corrections add in a frame: " << reported << " of the energy\n";
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ TEST(Rest, ABoxStaysForTenMinutes) {
     EXPECT_LE((s.body(1).position - settled).norm(), 1e-9) << "m of drift in ten minutes";
     EXPECT_EQ(s.kinetic(), 0) << "J";
     EXPECT_EQ(s.lost, 0) << "s: nothing is frozen any more";
-    EXPECT_NEAR(s.corrected, 2 * 10 * 0.00025, 1e-5) << "J: what the lift took, and it is told";
+    EXPECT_NEAR(s.corrected, 2 * 10 * 0.00025, 1e-5) << "J: what the lift took, and it is reported";
   }
 }
 
@@ -260,7 +260,7 @@ TEST(IslandSolver, SaysWhenItGivesUp) {
   EXPECT_EQ(bodies[1].velocity, Vec3(0, 0, -1));
 }
 
-// contacts.csv without its last column, which tells that each of them is an impact.
+// contacts.csv without its last column, which says that each of them is an impact.
 std::string without_kinds(const std::filesystem::path& file) {
   std::istringstream lines(contents(file));
   std::string all;
@@ -301,7 +301,7 @@ TEST(Program, TellsImpactsFromContactsThatLast) {
 
 // What corrections added is in steps.csv: boxes that touched are lifted, and that is all their energy; none of
 // their paths is shortened.
-TEST(Program, TellsWhatCorrectionsAdd) {
+TEST(Program, ReportsWhatCorrectionsAdd) {
   const auto folder = scratch("corrections");
   ASSERT_EQ(run(short_stack(folder) + " --set step.duration=1").exit_code, 0);
   const Table steps = read_table(folder / "steps.csv");

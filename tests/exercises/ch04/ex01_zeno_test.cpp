@@ -72,7 +72,7 @@ TEST(Ex01Zeno, AfterInfinitelyManyBouncesItLies) {
   for (const double t : {zeno * (1 + 1e-12), zeno + 0.1, zeno + 1e6}) {
     const BallState ball = ball_at(drop, t);
     EXPECT_TRUE(ball.at_rest) << "t = " << t << " s is after the last of all bounces, " << zeno << " s";
-    EXPECT_EQ(ball.bounces, -1) << "bounces: there were infinitely many, which is told as -1";
+    EXPECT_EQ(ball.bounces, -1) << "bounces: there were infinitely many, which is reported as -1";
     EXPECT_EQ(ball.height, 0) << "m: it lies on the floor";
     EXPECT_EQ(ball.velocity, 0) << "m/s: it lies still";
   }

@@ -80,7 +80,7 @@ TEST(Ex02LastBounce, WithoutRestitution) {
 TEST(Ex02LastBounce, WithoutLoss) {
   const Ending ever = ending({5, 1, 10}, 1e-3, 0.01);
   EXPECT_EQ(ever.bounces, -1)
-      << "bounces: without loss it never becomes slow; infinitely many are told as -1";
+      << "bounces: without loss it never becomes slow; infinitely many are reported as -1";
   EXPECT_EQ(ever.time, kInfinity) << "s: no touch is ever slow enough for the envelope";
   const Ending taken = ending({5, 1, 10}, 0.2, 0.01);
   EXPECT_EQ(taken.bounces, 0) << "bounces: 20 m/s are needed, it has 10";

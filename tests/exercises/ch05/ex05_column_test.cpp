@@ -141,7 +141,7 @@ TEST(Ex05Column, FramesOpenAColumn) {
     }
   }
   EXPECT_NEAR(energy, 9.81 * 0.5 * kEnvelope * kCount * (kCount + 1) / 2, 1e-12)
-      << "J: 0.135, as the chapter tells";
+      << "J: 0.135, as the chapter says";
 }
 
 TEST(Ex05Column, AsDantzigHasIt) {
