@@ -19,12 +19,13 @@ std::vector<Column> steps_columns(const MoreColumns& more) {
   columns.insert(columns.end(), more.columns.begin(), more.columns.end());
   return columns;
 }
-std::vector<Column> contacts_columns(bool kinds) {
+std::vector<Column> contacts_columns(bool kinds, const MoreColumns& more) {
   std::vector<Column> columns = {{"t", "s"},        {"body_a", ""}, {"body_b", ""},      {"x", "m"},
                                  {"y", "m"},        {"z", "m"},     {"nx", ""},          {"ny", ""},
                                  {"nz", ""},        {"gap", "m"},   {"v_before", "m/s"}, {"v_after", "m/s"},
                                  {"impulse", "N s"}};
   if (kinds) columns.push_back({"kind", ""});
+  columns.insert(columns.end(), more.contact_columns.begin(), more.contact_columns.end());
   return columns;
 }
 std::vector<Column> poses_columns() {
@@ -58,7 +59,7 @@ Recorder::Recorder(const Scene& scene, const World& world, const RunContext& con
     : kinds_(kinds),
       more_(more),
       steps_(context.out_dir / "steps.csv", steps_columns(more)),
-      contacts_(context.out_dir / "contacts.csv", contacts_columns(kinds)),
+      contacts_(context.out_dir / "contacts.csv", contacts_columns(kinds, more)),
       motion_(scene.name, context.chapter, scene.step->dt),
       folder_(context.out_dir),
       dt_(scene.step->dt) {
@@ -117,6 +118,8 @@ void Recorder::write_impacts(double frame_start) {
                              record.impulse.v_after,
                              record.impulse.impulse};
     if (kinds_) row.emplace_back(rests ? "rest" : "impact");
+    if (more_.contact_cells)
+      for (const Cell& cell : more_.contact_cells(record)) row.push_back(cell);
     contacts_.row(row);
     motion_.contact(t, c.point, c.normal, record.impulse.impulse, rests);
   }

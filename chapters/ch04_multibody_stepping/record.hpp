@@ -22,11 +22,13 @@ struct Totals {
 };
 Totals totals_of(const World& world);
 
-// Columns that a later chapter adds to steps.csv, after chapter 4's.
+// Columns that a later chapter adds to steps.csv and contacts.csv, after chapter 4's.
 struct MoreColumns {
   std::vector<Column> columns = {};
   std::function<std::vector<Cell>()> cells =
       {};  // of the frame that was stepped last; of row 0 before the first
+  std::vector<Column> contact_columns = {};
+  std::function<std::vector<Cell>(const ImpactRecord&)> contact_cells = {};
 };
 
 class Recorder {

@@ -180,9 +180,9 @@ struct ImpactRecord {
   lcp::Contact contact;
   lcp::Impulse impulse;
   ContactKind kind = ContactKind::impact;
-  // Along the surfaces: 0 unless a later chapter's law acts there.
-  Vec3 tangential = Vec3::Zero();          // N s, on B
-  double slip_before = 0, slip_after = 0;  // m/s, sizes
+  // Along the surfaces: an impulse is 0 there unless a later chapter's law acts.
+  Vec3 tangential = Vec3::Zero();                              // N s, on B
+  Vec3 slip_before = Vec3::Zero(), slip_after = Vec3::Zero();  // m/s, of B's point as seen from A's
 };
 using OnImpact = std::function<void(const ImpactRecord&)>;
 using OnSighting = std::function<void(const Sighting&)>;

@@ -81,7 +81,7 @@ class Shortening {
     for (;;) {
       const PathVerdict verdict =
           courses_.check(world_, pair, scaled(pair.a), scaled(pair.b),
-                         {.need = floor, .most_pairs = kMostNodePairs, .by_planes = true});
+                         {.required_gap = floor, .most_pairs = kMostNodePairs, .by_planes = true});
       if (verdict.clear) return;
       const double part = kOfFree * verdict.time / courses_.length();
       const auto lower = [&](double share, double least) {
@@ -197,7 +197,8 @@ void PilePlanner::find_paths(const world::World& world) {
     for (std::size_t i = 0; i < paths_.size(); ++i) courses_.go(static_cast<int>(i), paths_[i]);
     courses_.find(world, true);
     add_bodies();
-    const PathOptions options{.need = floor, .most_pairs = kMostNodePairs, .by_planes = true, .whole = true};
+    const PathOptions options{
+        .required_gap = floor, .most_pairs = kMostNodePairs, .by_planes = true, .whole = true};
     const bool clear = courses_.prove(world, [&](const Candidate&) { return options; });
     if (clear || round == options_.rounds) return;
     for (int i = 0; i < static_cast<int>(courses_.candidates.size()); ++i)

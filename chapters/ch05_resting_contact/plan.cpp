@@ -85,9 +85,9 @@ PlanMaker::Result PlanMaker::make(const world::World& world, const Island& islan
                   [](const Row& row) { return row.arrives; });  // proofs find out who does, and how fast
   }
   const auto options_of = [&](const Candidate& pair) {
-    if (!pair.in_contact) return PathOptions{.need = kStop * contacts_.margin()};
+    if (!pair.in_contact) return PathOptions{.required_gap = kStop * contacts_.margin()};
     const std::int64_t most = Contacts::convex(world, *pair.contacts) ? kMostPairs : kMostPairsOfMeshes;
-    return PathOptions{.need = kFloor * contacts_.margin(), .most_pairs = most};
+    return PathOptions{.required_gap = kFloor * contacts_.margin(), .most_pairs = most};
   };
   const auto acts_on_air = [&](const Row& row) {  // an impulse across more than the margin
     return row.push() > 0 && row.arrives && row.end_gap > contacts_.margin();
@@ -382,7 +382,7 @@ Planned PlanMaker::take() {
     if (row.arrives) {
       reported.contact.gap = row.end_gap;
       reported.contact.point = row.point.middle(courses_.paths[at(row.contact.body_a)].end,
-                                            courses_.paths[at(row.contact.body_b)].end);
+                                                courses_.paths[at(row.contact.body_b)].end);
     }
     reported.contact.body_a = courses_.members[at(row.contact.body_a)].number;
     reported.contact.body_b = courses_.members[at(row.contact.body_b)].number;

@@ -16,17 +16,22 @@ class RestRecords {
  public:
   void clear();
   // `key` names the point among those of its two bodies. Added to what is known of it, if its normal has not changed.
-  void add(const world::ImpactRecord& record, std::uint64_t key);
+  // ends_plan: it is what the instant at a plan's end did, the other half of what the plan did.
+  void add(const world::ImpactRecord& record, std::uint64_t key, bool ends_plan);
   void report(const world::OnImpact& listener) const;
+  // J, what impulses along the surfaces did: over a plan's path, along which both halves act.
+  double tangential_work() const { return work_; }
   int size() const { return static_cast<int>(records_.size()); }
 
  private:
   struct Reported {
     world::ImpactRecord record;
+    Vec3 slip;  // m/s, of the last plan
     std::uint64_t key;
     int next;  // of the same two bodies, or -1
   };
   std::vector<Reported> records_;
+  double work_ = 0;
   std::unordered_map<std::uint64_t, int> last_of_;  // of two bodies
 };
 

@@ -82,6 +82,7 @@ RestReport Resting::step(world::World& world, const world::Listeners& listeners)
   report.max_penetration = std::max(report.max_penetration, -std::min(0.0, report_.smallest_gap));
   report_.step = report;
   report_.searched = contacts_.searched() - searched;
+  report_.tangential_work += records_.tangential_work();
   if (listeners.impact) records_.report(listeners.impact);
   return report_;
 }
@@ -223,7 +224,7 @@ void Resting::end_plan(Instant& instant, int number) {
     if (acted.dot(row.contact.normal) > 0)
       records_.add(record_of(row.arrives ? end : plan.start, row.contact, row.before, row.after, acted,
                              world::ContactKind::rest),
-                   row.key);
+                   row.key, false);
     if (!whole || !(row.back.dot(row.contact.normal) > 0)) continue;
     ++instant.report.impacts;
     instant.listeners.impact(
@@ -257,7 +258,11 @@ bool Resting::resolve(Instant& instant, Island& island) {
     const world::ImpactRecord& record = result.records[i];
     const bool impact = record.kind == world::ContactKind::impact;
     report.impacts += impact;
-    if (!impact) records_.add(record, result.keys[i]);
+    if (impact)
+      report_.tangential_work +=
+          std::min(0.0, 0.5 * record.tangential.dot(record.slip_before + record.slip_after));
+    else
+      records_.add(record, result.keys[i], true);
     if (impact && instant.listeners.impact) instant.listeners.impact(record);
   }
   for (Member& member :

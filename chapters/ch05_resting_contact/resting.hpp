@@ -25,9 +25,10 @@ struct RestReport {
   int sweeps = 0;                                                 // of Gauss-Seidel, in piles
   double correction = 0;  // m, the largest that a body's point was moved to put gaps right
   double correction_energy =
-      0;              // J, that bodies in contact gained beyond what kinematic bodies did: by corrections of
-                      // positions, and by the plans' error, which is of second order
-  int shortened = 0;  // bodies of piles whose paths were shortened
+      0;  // J, that bodies in contact gained beyond what kinematic bodies did: by corrections of
+          // positions, and by the plans' error, which is of second order
+  double tangential_work = 0;       // J, by impulses along the surfaces
+  int shortened = 0;                // bodies of piles whose paths were shortened
   double lost_impulse = 0;          // N s, the momentum that this took
   std::vector<Clash> clashes = {};  // of kinematic bodies, first reported in this frame; times in the frame
 };

@@ -33,7 +33,9 @@ Eigen::Vector2d disc_friction(const Eigen::Matrix2d& D, const Eigen::Vector2d& d
   if (!(radius > 0)) return Eigen::Vector2d::Zero();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(D);
   const Eigen::Vector2d along = eigen.eigenvectors().transpose() * d, delta = eigen.eigenvalues().cwiseMax(0);
-  const auto at = [&](double x) -> Eigen::Vector2d { return -along.cwiseQuotient(delta + Eigen::Vector2d::Constant(x)); };
+  const auto at = [&](double x) -> Eigen::Vector2d {
+    return -along.cwiseQuotient(delta + Eigen::Vector2d::Constant(x));
+  };
   if (delta[0] > 0 && at(0).norm() <= radius) return eigen.eigenvectors() * at(0);
   double low = 0, high = along.norm() / radius;  // at(high) is short enough
   for (int i = 0; i < kMost; ++i) {
@@ -65,7 +67,17 @@ void ContactSweeps::add(const lcp::Contact& contact, double mu, double limit, co
   };
   const Mat3 whole = frame.transpose() * (part(a, arm_a) + part(b, arm_b)) * frame;
   const Mat3 delassus = 0.5 * (whole + whole.transpose());
-  Block block{contact.body_a, contact.body_b, frame, arm_a, arm_b, delassus, OneContact(delassus, mu), mu, limit, {}, {}};
+  Block block{contact.body_a,
+              contact.body_b,
+              frame,
+              arm_a,
+              arm_b,
+              delassus,
+              OneContact(delassus, mu),
+              mu,
+              limit,
+              {},
+              {}};
   block.start = relative_velocity(block) + Vec3(limit, 0, 0);
   block.r = project_onto_cone(frame.transpose() * impulse, mu);
   blocks_.push_back(block);

@@ -37,8 +37,10 @@ class ContactSweeps {
   // The worst violation of Coulomb's law at a contact (cone_violation), over the largest velocity without impulses or due to them.
   double residual() const;
 
-  Vec3 impulse(int contact) const { return blocks_[index(contact)].frame * blocks_[index(contact)].r; }  // N s, world, on B
-  Vec3 velocity(int contact) const;  // m/s, world: of B's point as seen from A's
+  Vec3 impulse(int contact) const {
+    return blocks_[index(contact)].frame * blocks_[index(contact)].r;
+  }                                                  // N s, world, on B
+  Vec3 velocity(int contact) const;                  // m/s, world: of B's point as seen from A's
   void apply_to(std::span<RigidBody> bodies) const;  // velocities with all impulses
 
  private:
