@@ -10,6 +10,7 @@ namespace fc::exercises {
 namespace {
 
 constexpr int kMostBounces = 8;  // in one instant; then nothing bounces any more
+// A plan makes up this part of what a gap lacks to h/2; and at once what it lacks to this part of h.
 constexpr double kCorrect = 0.2, kLeastGap = 0.25;
 constexpr double kRounding = 1e-12;  // of the largest speed: nothing closes as slowly as that
 constexpr double kNever = std::numeric_limits<double>::infinity();
@@ -128,7 +129,8 @@ double first_meeting(const Pile& pile, const Plan& plan) {
   };
   double first = kNever;
   for (int i = 0; i < std::ssize(pile.boxes); ++i) {
-    if (std::find(plan.rows.begin(), plan.rows.end(), i) != plan.rows.end()) continue;  // the plan sees to it
+    if (std::find(plan.rows.begin(), plan.rows.end(), i) != plan.rows.end())
+      continue;  // the plan keeps it open
     const Course below = course_of(i - 1), above = course_of(i);
     const double speed = above.speed - below.speed, fall = above.fall - below.fall;
     // gap + speed t - fall t^2 / 2 = h/4, in the form in which no digits cancel while it closes.
@@ -202,12 +204,12 @@ double gap_below(const Pile& pile, int box) {
   return pile.boxes[box].bottom - below;
 }
 
-// 1. What lasts is stopped first, and alone. In one problem with the impact its second half of gravity would
-//    be given back like a blow, and what rests hops.
+// 1. What lasts is stopped first, and alone. In one problem with the impact, what the floor takes of the second
+//    half of gravity would be given back like a blow, and what rests would hop.
 // 2. A plan pushes at contacts only. What will be one by the plan's end is a meeting: it cuts the plan.
 // 3. The boxes keep w. Only their paths have the correction.
 // 4. Both halves of gravity act along the whole plan: a plan that is cut has given its share of both.
-// 5. So it has of the impulses: what is told is what was given.
+// 5. And its share of the impulses. What is told is what was given.
 Report step(Pile& pile, double dt) {
   Report report;
   std::vector<char> has_pushed(pile.boxes.size(), 0);

@@ -1,5 +1,5 @@
 // Exercise 5.6. Each test is an account of one law, in a scene that can be worked out on paper. The last one keeps all accounts
-// of random piles. Each of the five mistakes has a test that sees no other one: no frame of these scenes depends on the rest.
+// of random piles. Each of the five mistakes has a test that sees no other one.
 #include "ex06_hopping.hpp"
 
 #include <gtest/gtest.h>

@@ -12,6 +12,7 @@ namespace fc::exercises {
 namespace {
 
 constexpr int kMostBounces = 8;  // in one instant; then nothing bounces any more
+// A plan makes up this part of what a gap lacks to h/2; and at once what it lacks to this part of h.
 constexpr double kCorrect = 0.2, kLeastGap = 0.25;
 constexpr double kRounding = 1e-12;  // of the largest speed: nothing closes as slowly as that
 constexpr double kNever = std::numeric_limits<double>::infinity();
@@ -130,7 +131,8 @@ double first_meeting(const Pile& pile, const Plan& plan) {
   };
   double first = kNever;
   for (int i = 0; i < std::ssize(pile.boxes); ++i) {
-    if (std::find(plan.rows.begin(), plan.rows.end(), i) != plan.rows.end()) continue;  // the plan sees to it
+    if (std::find(plan.rows.begin(), plan.rows.end(), i) != plan.rows.end())
+      continue;  // the plan keeps it open
     const Course below = course_of(i - 1), above = course_of(i);
     const double speed = above.speed - below.speed, fall = above.fall - below.fall;
     // gap + speed t - fall t^2 / 2 = h/4, in the form in which no digits cancel while it closes.
