@@ -2,6 +2,8 @@
 // do more, and stands in the same place.
 #pragma once
 
+#include <memory>
+
 #include "ch05_resting_contact/island_solver.hpp"
 
 namespace fc::resting {
@@ -30,6 +32,8 @@ class ContactLaw {
   // velocities in the set.
   virtual double holds_until(const ContactSet& mean, std::span<const RigidBody> now,
                              std::span<const Vec3> impulses, double length) const = 0;
+  // The sweeps of a pile.
+  virtual std::unique_ptr<GaussSeidel> gauss_seidel() const { return std::make_unique<GaussSeidel>(); }
 };
 
 // Contacts that push along their normals alone.

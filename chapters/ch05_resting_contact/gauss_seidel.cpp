@@ -27,6 +27,7 @@ void GaussSeidel::clear() {
   rows_.clear();
   lines_.clear();
   arms_.clear();
+  points_.clear();
   masses_.clear();
   velocities_.clear();
   paths_.clear();
@@ -73,8 +74,11 @@ int GaussSeidel::add(const lcp::Contact& c, double approach_limit, double room, 
                    static_cast<float>(path_start / root)});
   lines_.push_back({end(move_a, turn_a), end(move_b, turn_b)});
   arms_.push_back(arms);
+  points_.push_back(c.point);
   return rows() - 1;
 }
+
+void GaussSeidel::end_pair(int, int, int, std::span<const Vec3>) {}
 
 // ANCHOR: sweep
 template <bool kVelocities, bool kPaths>
@@ -98,6 +102,7 @@ void GaussSeidel::sweep() {
       b.path += push * line.b;
     }
   }
+  sweep_more(kVelocities, kPaths);
 }
 // ANCHOR_END: sweep
 
@@ -111,6 +116,7 @@ void GaussSeidel::apply_guesses() {
     a.path += row.correction * lines_[r].a;
     b.path += row.correction * lines_[r].b;
   }
+  apply_more_guesses();
 }
 
 // Impulses change the kinetic energy by z'J v_0 + z'A z / 2 <= z'(b + w) / 2, since z'approach_limit >= 0. Each step of a sweep
@@ -125,6 +131,7 @@ bool GaussSeidel::gains() const {
     sum += static_cast<double>(row.impulse) * static_cast<double>(row.approach_limit + w);
     size += static_cast<double>(row.impulse) * static_cast<double>(std::abs(row.approach_limit));
   }
+  add_gains(sum, size);
   constexpr double kRounding = 1e-6;  // of single precision
   return sum > kRounding * size;
 }
@@ -146,6 +153,7 @@ int GaussSeidel::run(int sweeps) {
     row.impulse = 0;
     if (kPaths) row.correction = 0;
   }
+  drop_all();
   apply_guesses();
   go_on(sweeps);
   return count;
@@ -195,6 +203,7 @@ void GaussSeidel::work_out(std::vector<Twist>& velocities, std::vector<Twist>& p
       result[at(row.b)].linear += z * arms_[r].normal;
       result[at(row.b)].angular += z * arms_[r].b;
     }
+    add_momenta(is_path, result);
     for (std::size_t k = 0; k < masses_.size(); ++k) {
       const Twist& start = is_path ? paths_[k] : velocities_[k];
       result[k] = {start.linear + masses_[k].move.cwiseProduct(result[k].linear),

@@ -20,11 +20,15 @@ namespace fc::resting {
 // in double.
 class GaussSeidel {
  public:
-  void clear();
+  virtual ~GaussSeidel() = default;
+  virtual void clear();
   // A body as it is when the impulses act, its v_0 and y_0.
   void add_body(const RigidBody& body, const Twist& velocity, const Twist& path);
   // A row, of bodies by their numbers here; returns its own. m/s, and guesses in N s, which only count before run().
   int add(const lcp::Contact& contact, double approach_limit, double room, double impulse, double correction);
+  // The rows from `first` on belong to two bodies, by their numbers in the world; guesses: N s, on B, of each. A later chapter's
+  // seam: rows alone push along their normals.
+  virtual void end_pair(int first, int world_a, int world_b, std::span<const Vec3> guesses);
   int rows() const { return static_cast<int>(rows_.size()); }
   int bodies() const { return static_cast<int>(masses_.size()); }
 
@@ -41,6 +45,8 @@ class GaussSeidel {
   double impulse(int row) const {
     return static_cast<double>(of_row(row).impulse) / static_cast<double>(of_row(row).root);
   }  // N s
+  // N s, world, on B, all that acts there.
+  virtual Vec3 whole_impulse(int row) const { return impulse(row) * normal(row); }
   const Vec3& normal(int row) const { return arms_[at(row)].normal; }
   double start_speed(int row) const;  // J v_0, m/s
   double path_speed(int row) const;   // J y
@@ -49,7 +55,7 @@ class GaussSeidel {
   // The worst |min(z, w)| over the largest |b|, scaled by the diagonal as in chapter 3; of velocities.
   double residual() const;
 
- private:
+ protected:
   using Vec8 = Eigen::Array<float, 8, 1>;  // linear and angular part, and two zeros
   struct Line {
     Vec8 a, b;
@@ -71,6 +77,14 @@ class GaussSeidel {
     Vec3 place, move, root;  // m; 1/kg along each axis that is free, and its root
     Mat3 turn, turn_root;    // 1/(kg m^2), and L
   };
+  // What else a sweep looks at, after the rows; what else the guesses do; what else impulses do to the energy, doubled, with its
+  // size (J); and their momenta, N s and N m s, added to those of each body.
+  virtual void sweep_more(bool /*velocities*/, bool /*paths*/) {}
+  virtual void apply_more_guesses() {}
+  virtual void drop_all() {}
+  virtual void add_gains(double& /*sum*/, double& /*size*/) const {}
+  virtual void add_momenta(bool /*paths*/, std::vector<Twist>& /*momenta*/) const {}
+
   const Row& of_row(int row) const { return rows_[at(row)]; }
   template <bool kVelocities, bool kPaths>
   int run(int sweeps);
@@ -82,6 +96,7 @@ class GaussSeidel {
   std::vector<Row> rows_;
   std::vector<Line> lines_;
   std::vector<Arms> arms_;
+  std::vector<Vec3> points_;  // m, of each row
   std::vector<Mass> masses_;
   std::vector<Twist> velocities_, paths_;
   std::vector<State> states_;

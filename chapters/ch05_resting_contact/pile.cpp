@@ -122,15 +122,17 @@ Planned PilePlanner::make(const world::World& world, std::span<const Member> mem
   blocked_.clear();
   lost_ = 0;
   shortened_ = 0;
-  gauss_seidel_.clear();
+  gauss_seidel_->clear();
   courses_.start(world, members, now, length);
   courses_.find(world, true);
   add_bodies();
   for (int i = 0; i < static_cast<int>(courses_.candidates.size()); ++i) {
     const int count = static_cast<int>(courses_.candidates[at(i)].contacts->points.size());
+    const int first = rows();
     for (int place = 0; place < count; ++place) add_row(world, i, place, false);
+    end_pair(i, first);
   }
-  swept_ = gauss_seidel_.run(std::max(options_.sweeps, options_.visits / (1 + rows())));
+  swept_ = gauss_seidel_->run(std::max(options_.sweeps, options_.visits / (1 + rows())));
   find_paths(world);
   shares_.assign(courses_.members.size(), 1);
   Shortening(world, courses_, shares_, blocked_).run(kPathFloor * contacts_.margin());
@@ -150,12 +152,16 @@ double PilePlanner::smallest_gap() const {
   return gap;
 }
 
+// A member's, at the end.
+Twist PilePlanner::free_velocities(std::size_t i) const {
+  const Twist &mean = courses_.drift[i], &more = courses_.last[i];
+  return {mean.linear + more.linear, mean.angular + more.angular};
+}
+
 // Members that the sweeps have not heard of.
 void PilePlanner::add_bodies() {
-  for (std::size_t i = at(gauss_seidel_.bodies()); i < courses_.members.size(); ++i) {
-    const Twist &mean = courses_.drift[i], &more = courses_.last[i];
-    gauss_seidel_.add_body(courses_.members[i].state,
-                           {mean.linear + more.linear, mean.angular + more.angular}, mean);
+  for (std::size_t i = at(gauss_seidel_->bodies()); i < courses_.members.size(); ++i) {
+    gauss_seidel_->add_body(courses_.members[i].state, free_velocities(i), courses_.drift[i]);
   }
 }
 
@@ -173,6 +179,17 @@ lcp::Contact PilePlanner::contact_of(const world::World& world, const Row& row) 
           world.turns(courses_.members[at(pair.b)].number)};
 }
 
+// All rows of a pair are there, from `first` on.
+void PilePlanner::end_pair(int candidate, int first) {
+  if (first == rows()) return;
+  const PairContacts& pair = *courses_.candidates[at(candidate)].contacts;
+  guesses_.clear();
+  for (int i = first; i < rows(); ++i)
+    guesses_.push_back(rows_[at(i)].late ? Vec3(Vec3::Zero())
+                                         : Vec3(courses_.length() * point_of(rows_[at(i)]).force));
+  gauss_seidel_->end_pair(first, pair.a, pair.b, guesses_);
+}
+
 int PilePlanner::add_row(const world::World& world, int candidate, int place, bool late) {
   first_row_.resize(courses_.candidates.size(), -1);
   Row row{candidate, place, first_row_[at(candidate)], 0, late, late};
@@ -181,9 +198,9 @@ int PilePlanner::add_row(const world::World& world, int candidate, int place, bo
   row.arrives = late || contact.gap > margin;
   const double guess = late ? 0 : contact.normal.dot(point_of(row).force) * length;
   const int number =
-      gauss_seidel_.add(contact, std::max(0.0, contact.gap - 0.5 * margin) / length,
-                        (contact.gap - wanted_gap(contact.gap, margin)) / length, guess, 0.5 * guess);
-  row.before = gauss_seidel_.start_speed(number);
+      gauss_seidel_->add(contact, std::max(0.0, contact.gap - 0.5 * margin) / length,
+                         (contact.gap - wanted_gap(contact.gap, margin)) / length, guess, 0.5 * guess);
+  row.before = gauss_seidel_->start_speed(number);
   first_row_[at(candidate)] = number;
   rows_.push_back(row);
   return number;
@@ -193,7 +210,7 @@ int PilePlanner::add_row(const world::World& world, int candidate, int place, bo
 void PilePlanner::find_paths(const world::World& world) {
   const double floor = kPathFloor * contacts_.margin();
   for (int round = 0;; ++round) {
-    gauss_seidel_.work_out(velocities_, paths_);
+    gauss_seidel_->work_out(velocities_, paths_);
     for (std::size_t i = 0; i < paths_.size(); ++i) courses_.go(static_cast<int>(i), paths_[i]);
     courses_.find(world, true);
     add_bodies();
@@ -203,7 +220,7 @@ void PilePlanner::find_paths(const world::World& world) {
     if (clear || round == options_.rounds) return;
     for (int i = 0; i < static_cast<int>(courses_.candidates.size()); ++i)
       if (!courses_.candidates[at(i)].clear) look_again(world, i);
-    swept_ += gauss_seidel_.run(std::max(options_.path_sweeps, options_.visits / (1 + rows())));
+    swept_ += gauss_seidel_->run(std::max(options_.path_sweeps, options_.visits / (1 + rows())));
   }
 }
 
@@ -214,11 +231,12 @@ void PilePlanner::look_again(const world::World& world, int candidate) {
   const double rest = 0.5 * contacts_.margin();
   const auto correct = [&](int row) {
     const double gap = point_of(rows_[at(row)]).gap_at(a.end, b.end);
-    gauss_seidel_.set_room(row, (gap - rest) / courses_.length() - gauss_seidel_.path_speed(row));
+    gauss_seidel_->set_room(row, (gap - rest) / courses_.length() - gauss_seidel_->path_speed(row));
   };
   first_row_.resize(courses_.candidates.size(), -1);
   for (int row = first_row_[at(candidate)]; row >= 0; row = rows_[at(row)].next) correct(row);
   double gap = 0;
+  const int first = rows();
   for (const ContactPoint& point : contacts_.points_at(world, *pair.contacts, a.end, b.end, gap)) {
     bool known = false;
     for (int row = first_row_[at(candidate)]; row >= 0 && !known; row = rows_[at(row)].next)
@@ -227,6 +245,7 @@ void PilePlanner::look_again(const world::World& world, int candidate) {
     late_.push_back(point);
     correct(add_row(world, candidate, static_cast<int>(late_.size()) - 1, true));
   }
+  end_pair(candidate, first);
 }
 
 // An impulse at the end of a path needs a contact there.
@@ -236,18 +255,18 @@ void PilePlanner::drop_what_acts_on_air() {
     bool any = false;
     for (int i = 0; i < rows(); ++i) {
       const Row& row = rows_[at(i)];
-      if (!row.arrives || !(gauss_seidel_.impulse(i) > 0)) continue;
+      if (!row.arrives || !(gauss_seidel_->impulse(i) > 0)) continue;
       const Candidate& pair = courses_.candidates[at(row.pair)];
       const double gap = point_of(row).gap_at(courses_.paths[at(pair.a)].end, courses_.paths[at(pair.b)].end);
       if (gap <= contacts_.margin()) continue;
-      gauss_seidel_.drop(i);
+      gauss_seidel_->drop(i);
       any = true;
     }
     if (!any) break;
-    if (times + 1 < kMostTimes) swept_ += gauss_seidel_.run_velocities(kSweeps);
+    if (times + 1 < kMostTimes) swept_ += gauss_seidel_->run_velocities(kSweeps);
   }
   std::vector<Twist> paths;
-  gauss_seidel_.work_out(velocities_, paths);
+  gauss_seidel_->work_out(velocities_, paths);
 }
 
 // What bounces gives back what its restitution says, with the largest factor <= 1 for all with which this takes no more energy
@@ -259,7 +278,7 @@ void PilePlanner::give_back(const world::World& world, std::vector<RigidBody>& b
     const Row& row = rows_[at(i)];
     const PairContacts& pair = *courses_.candidates[at(row.pair)].contacts;
     if (row.before >= -contacts_.margin() / options_.frame || point_of(row).lasts) continue;
-    back_[at(i)] = gauss_seidel_.impulse(i) * world.restitution_of(pair.a, pair.b);
+    back_[at(i)] = gauss_seidel_->impulse(i) * world.restitution_of(pair.a, pair.b);
     any = any || back_[at(i)] > 0;
   }
   if (!any) return;
@@ -268,7 +287,7 @@ void PilePlanner::give_back(const world::World& world, std::vector<RigidBody>& b
     if (back_[at(i)] > 0) lcp::apply_impulse(bounced, contact_of(world, rows_[at(i)]), back_[at(i)]);
   double gave = 0, takes = 0;  // z'Az and r'Ar, by what the impulses do to the velocities
   for (int i = 0; i < rows(); ++i) {
-    const double z = gauss_seidel_.impulse(i);
+    const double z = gauss_seidel_->impulse(i);
     if (!(z > 0)) continue;
     const lcp::Contact contact = contact_of(world, rows_[at(i)]);
     const double end = lcp::contact_velocity(bodies, contact);
@@ -286,19 +305,21 @@ void PilePlanner::give_back(const world::World& world, std::vector<RigidBody>& b
 void PilePlanner::remember() const {
   std::vector<char> pushes(courses_.candidates.size(), 0);
   for (int i = 0; i < rows(); ++i)
-    pushes[at(rows_[at(i)].pair)] |= gauss_seidel_.impulse(i) > 0 && !rows_[at(i)].arrives;
+    pushes[at(rows_[at(i)].pair)] |= gauss_seidel_->impulse(i) > 0 && !rows_[at(i)].arrives;
   for (int i = 0; i < rows(); ++i) {
     const Row& row = rows_[at(i)];
     if (row.late) continue;
     ContactPoint& point = courses_.candidates[at(row.pair)].contacts->points[at(row.place)];
-    point.force = gauss_seidel_.impulse(i) / courses_.length() * gauss_seidel_.normal(i);
+    point.force = gauss_seidel_->whole_impulse(i) / courses_.length();
     point.lasts = pushes[at(row.pair)] && !row.arrives;
   }
 }
 
 // All impulses act at the end.
 Planned PilePlanner::take(const world::World& world) {
-  const std::vector<RigidBody> swept = courses_.with(velocities_);
+  std::vector<Twist> without;
+  for (std::size_t i = 0; i < courses_.members.size(); ++i) without.push_back(free_velocities(i));
+  const std::vector<RigidBody> swept = courses_.with(velocities_), free = courses_.with(without);
   std::vector<RigidBody> bounced = swept;
   give_back(world, bounced);
   remember();
@@ -306,7 +327,7 @@ Planned PilePlanner::take(const world::World& world) {
   for (int i = 0; i < rows(); ++i) {
     const Row& row = rows_[at(i)];
     const Candidate& pair = courses_.candidates[at(row.pair)];
-    const double z = gauss_seidel_.impulse(i);
+    const double z = gauss_seidel_->impulse(i);
     if (!(z > 0)) continue;
     ++result.pushing;
     const bool kinematic =
@@ -314,11 +335,13 @@ Planned PilePlanner::take(const world::World& world) {
     if (!kinematic && !options_.report_rows) continue;
     PlannedRow reported;
     reported.contact = contact_of(world, row);
-    if (kinematic) result.kinematic_work += lcp::kinematic_work(swept, reported.contact, z + back_[at(i)]);
+    const Vec3 impulse = gauss_seidel_->whole_impulse(i), back = back_[at(i)] * reported.contact.normal;
+    if (kinematic)
+      result.kinematic_work += lcp::kinematic_work(swept, reported.contact, Vec3(impulse + back));
     if (!options_.report_rows) continue;
-    reported.impulse = z * reported.contact.normal;
-    reported.back = back_[at(i)] * reported.contact.normal;
-    reported.before = row.before * reported.contact.normal;
+    reported.impulse = impulse;
+    reported.back = back;
+    reported.before = lcp::relative_velocity(free, reported.contact);
     reported.after = lcp::relative_velocity(bounced, reported.contact);
     reported.key = point_of(row).key;
     reported.arrives = row.arrives;
@@ -336,13 +359,12 @@ Planned PilePlanner::take(const world::World& world) {
     const Member& member = courses_.members[i];
     if (!member.dynamic) continue;
     const Path& path = courses_.paths[i];
-    const Twist free{courses_.drift[i].linear + courses_.last[i].linear,
-                     courses_.drift[i].angular + courses_.last[i].angular};
     const double share = shares_[i];  // of what it has at the end, too
     result.bodies.push_back(member.number);
-    result.motions.push_back(planned_motion(member, {path.velocity, path.spin}, free, courses_.length()));
+    result.motions.push_back(
+        planned_motion(member, {path.velocity, path.spin}, without[i], courses_.length()));
     result.arrivals.push_back(
-        {share * bounced[i].velocity - free.linear, share * bounced[i].spin - free.angular});
+        {share * bounced[i].velocity - without[i].linear, share * bounced[i].spin - without[i].angular});
     const double before = member.state.kinetic_energy(), slow = contacts_.margin() / courses_.length();
     gained += share * share * bounced[i].kinetic_energy() - before;
     if (world.effects.gravity)

@@ -1,7 +1,9 @@
 // Piles: so many bodies that meet in one frame that nobody could go from one of their events to the next.
 #pragma once
 
+#include <memory>
 #include "ch05_resting_contact/gauss_seidel.hpp"
+
 #include "ch05_resting_contact/plan.hpp"
 
 namespace fc::resting {
@@ -26,7 +28,8 @@ struct PileOptions {
 //      bodies that push each other keep one share together, since then they move as they would, but slower.
 class PilePlanner {
  public:
-  explicit PilePlanner(Contacts& contacts) : contacts_(contacts), courses_(contacts, true) {}
+  PilePlanner(Contacts& contacts, const ContactLaw& law)
+      : contacts_(contacts), courses_(contacts, true), gauss_seidel_(law.gauss_seidel()) {}
 
   Planned make(const world::World& world, std::span<const Member> members, double now, double length,
                const PileOptions& options);
@@ -37,7 +40,7 @@ class PilePlanner {
   bool gains() const { return gains_; }  // whether it adds more energy than is small beside what there is
   // Kinematic bodies (by their numbers in the world) that went into what could not give way.
   const std::vector<int>& blocked() const { return blocked_; }
-  double residual() const { return gauss_seidel_.residual(); }
+  double residual() const { return gauss_seidel_->residual(); }
   int sweeps() const { return swept_; }
   int checked() const { return courses_.checked(); }
   int rows() const { return static_cast<int>(rows_.size()); }
@@ -57,7 +60,9 @@ class PilePlanner {
                     : courses_.candidates[at(row.pair)].contacts->points[at(row.place)];
   }
   lcp::Contact contact_of(const world::World& world, const Row& row) const;
+  Twist free_velocities(std::size_t i) const;
   void add_bodies();
+  void end_pair(int candidate, int first);
   int add_row(const world::World& world, int candidate, int place, bool late);
   void find_paths(const world::World& world);
   void look_again(const world::World& world, int candidate);
@@ -68,14 +73,15 @@ class PilePlanner {
 
   Contacts& contacts_;
   Courses courses_;
-  GaussSeidel gauss_seidel_;
+  std::unique_ptr<GaussSeidel> gauss_seidel_;
   PileOptions options_;
   std::vector<Row> rows_;
   std::vector<int> first_row_;  // of each candidate, or -1
   std::vector<ContactPoint> late_;
   std::vector<Twist> velocities_, paths_;  // of each member, at the end
   std::vector<double> shares_;             // of its path that a member goes
-  std::vector<double> back_;               // N s, of each row
+  std::vector<Vec3> guesses_;
+  std::vector<double> back_;  // N s, of each row
   std::vector<int> blocked_;
   double lost_ = 0;
   bool gains_ = false;

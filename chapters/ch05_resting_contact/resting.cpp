@@ -54,7 +54,7 @@ Resting::Resting(const Scene& scene, world::World& world, double dt, const RestO
       islands_(contacts_, world.bodies.size()),
       law_(law ? std::move(law) : std::make_unique<NormalLaw>()),
       maker_(contacts_, *law_),
-      pile_planner_(contacts_),
+      pile_planner_(contacts_, *law_),
       options_(options),
       frame_(dt),
       dt_(dt),

@@ -1,5 +1,6 @@
 #include "ch06_friction/contact_sweeps.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 

@@ -1,0 +1,119 @@
+#include "ch05_resting_contact/rest_run.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+namespace fc::resting {
+namespace {
+
+constexpr double kWide = 10;  // g dt^2: from here on an envelope is called wide
+
+}  // namespace
+
+std::vector<Effect> explain(const Scene& scene) {
+  std::vector<Effect> list = world::explain(scene);
+  const world::World world = world::build_world(scene);
+  const double margin = envelope_of(scene, world, scene.step->dt);
+  const std::string why = scene.mark("envelope") ? "declared at " + scene.mark("envelope")->text()
+                                                 : "derived: friction needs contacts that last";
+  list.push_back({"envelope", why,
+                  fmt::format("bodies nearer than {:.3g} m are in contact, and rest {:.3g} m apart", margin,
+                              0.5 * margin),
+                  0});
+  const double fall =
+      world.effects.gravity ? world.effects.gravity->norm() * scene.step->dt * scene.step->dt : 0;
+  if (fall > 0 && margin > kWide * fall)
+    list.push_back(
+        {"wide envelope", why,
+         fmt::format(
+             "{:.3g} times what gravity and a frame's length ask for (g dt^2): little bounces; narrow it, "
+             "or take longer frames",
+             margin / fall),
+         0});
+  list.push_back({"plans", why,
+                  "an island goes on together: an LCP of gaps at the plan's end, another puts gaps right",
+                  2});
+  list.push_back(
+      {"impact law", why,
+       fmt::format("at each instant: compression, and expansion if something comes in faster than {:.3g} m/s "
+                   "(envelope / dt)",
+                   margin / scene.step->dt),
+       1});
+  return list;
+}
+
+namespace {
+
+// frame: s, its start.
+void report_clash(const Scene& scene, const Clash& clash, double frame) {
+  const auto where = [&](int body) { return scene.bodies[static_cast<std::size_t>(body)].where.text(); };
+  fmt::print(
+      stderr,
+      "{}: this driven body goes into the one of {}, which does not give way either, at {:.6g} s; nothing "
+      "stops it\n",
+      where(clash.kinematic), where(clash.other), frame + clash.time);
+}
+
+}  // namespace
+
+int run_scene(const Scene& scene, const RunContext& context, Summary& summary, const RunOptions& options) {
+  std::unique_ptr<Resting> resting;
+  RestReport all, last;
+  int frame = 0, clashes = 0;
+  const auto prepare = [&](world::World& world) {
+    resting = std::make_unique<Resting>(scene, world, scene.step->dt, RestOptions{},
+                                        options.law ? options.law(world) : nullptr);
+  };
+  const auto step = [&](world::World& world, double, const world::Listeners& listeners) {
+    const RestReport& report = last = resting->step(world, listeners);
+    all.resting += report.resting;
+    all.plans += report.plans;
+    all.searched += report.searched;
+    all.checked += report.checked;
+    all.sweeps += report.sweeps;
+    all.shortened += report.shortened;
+    all.lost_impulse += report.lost_impulse;
+    all.correction_energy += report.correction_energy;
+    all.correction = std::max(all.correction, report.correction);
+    all.largest_island = std::max(all.largest_island, report.largest_island);
+    for (const Clash& clash : report.clashes) report_clash(scene, clash, frame * scene.step->dt);
+    clashes += static_cast<int>(report.clashes.size());
+    ++frame;
+    return report.step;
+  };
+  world::MoreColumns more, of_law;
+  if (options.columns) of_law = options.columns(last);
+  more.columns = {{"correction_energy", "J"}, {"shortened", ""}, {"lost_impulse", "N s"}};
+  more.columns.insert(more.columns.end(), of_law.columns.begin(), of_law.columns.end());
+  more.cells = [&] {
+    std::vector<Cell> cells{last.correction_energy, std::int64_t{last.shortened}, last.lost_impulse};
+    if (of_law.cells)
+      for (const Cell& cell : of_law.cells()) cells.push_back(cell);
+    return cells;
+  };
+  more.contact_columns = of_law.contact_columns;
+  more.contact_cells = of_law.contact_cells;
+  const int code = world::run_scene(scene, context, summary, step, true, prepare, more);
+  summary.add("envelope", resting->envelope(), "m");
+  summary.add("nothing bounces below (envelope / dt)", resting->envelope() / scene.step->dt, "m/s");
+  summary.add("resting contacts with an impulse", std::int64_t{all.resting});
+  summary.add("largest island", std::int64_t{all.largest_island}, "contact points");
+  summary.add("largest correction of a position in a plan", all.correction, "m");
+  summary.add("energy added by corrections", all.correction_energy, "J");
+  summary.add("bodies whose paths were shortened", std::int64_t{all.shortened});
+  summary.add("momentum that shortened paths took", all.lost_impulse, "N s");
+  if (clashes > 0) summary.add("driven bodies that went into what cannot give way", std::int64_t{clashes});
+  summary.counter("plans", all.plans, 0);
+  summary.counter("paths of pairs that were proved", all.checked, 0);
+  summary.counter("envelope (pairs whose contacts were searched)", all.searched, 0);
+  summary.counter("sweeps of Gauss-Seidel", all.sweeps, 0);
+  return code;
+}
+
+void check(const Scene& scene) {
+  world::World world = world::build_world(scene);
+  Resting(scene, world, scene.step->dt);
+}
+
+}  // namespace fc::resting

@@ -1,0 +1,25 @@
+// A scene with an envelope from its first frame to its last: what the programs of this chapter and of later ones share.
+#pragma once
+
+#include "ch04_multibody_stepping/run.hpp"
+#include "ch05_resting_contact/resting.hpp"
+
+namespace fc::resting {
+
+// What a later chapter changes.
+struct RunOptions {
+  // Its contact law for a world; none: that of this chapter.
+  std::function<std::unique_ptr<ContactLaw>(world::World&)> law = {};
+  // What it adds to the tables; `last` is the report of the frame that was stepped last.
+  std::function<world::MoreColumns(const RestReport& last)> columns = {};
+};
+
+// Effects, for --explain: chapter 4's, and those of the envelope.
+std::vector<Effect> explain(const Scene& scene);
+// As world::run_scene(). The scene has an envelope.
+int run_scene(const Scene& scene, const RunContext& context, Summary& summary,
+              const RunOptions& options = {});
+// Throws as these would at their start.
+void check(const Scene& scene);
+
+}  // namespace fc::resting

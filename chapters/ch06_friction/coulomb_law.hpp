@@ -1,0 +1,48 @@
+// Chapter 6's contact law: Coulomb's, in the place of chapter 5's that only pushes along normals.
+#pragma once
+
+#include "ch05_resting_contact/contact_law.hpp"
+#include "ch06_friction/contact_sweeps.hpp"
+#include "ch06_friction/friction_patches.hpp"
+
+namespace fc::friction {
+
+using resting::ContactSet;
+using resting::IslandOptions;
+using resting::IslandResult;
+
+// Whether any two shapes of the scene rub: else chapter 5's law is the whole truth.
+bool asks_for_friction(const Scene& scene);
+
+// Contacts of which no pair rubs are solved as in chapter 5, bit for bit.
+class CoulombLaw : public resting::NormalLaw {
+ public:
+  // Balls that rub turn: sets the world's effects.
+  explicit CoulombLaw(world::World& world);
+
+  // Coulomb's law on the velocities after, with limits as in NormalLaw: K* ∋ (u_N + limit + µ|u_T|, u_T) ⟂ r ∈ K.
+  IslandResult push(const ContactSet& set, std::span<const double> limits, std::span<Vec3> impulses,
+                    const IslandOptions& options) override;
+  // Contacts that stuck in the last push() do not slip.
+  IslandResult correct(const ContactSet& set, std::span<const double> limits, std::span<double> impulses,
+                       const IslandOptions& options) override;
+  // With friction of at most µ times what is given back.
+  void give_back(const ContactSet& set, std::span<const double> normals, std::span<Vec3> total) override;
+  // Until the first contact that slides comes to rest.
+  std::unique_ptr<resting::GaussSeidel> gauss_seidel() const override;
+  double holds_until(const ContactSet& mean, std::span<const RigidBody> now, std::span<const Vec3> impulses,
+                     double length) const override;
+
+ private:
+  double mu(const ContactSet& set, const lcp::Contact& contact) const;
+  bool rubs(const ContactSet& set);
+  void start(const ContactSet& set, std::span<const double> limits, std::span<const Vec3> impulses);
+  bool solve_densely(const ContactSet& set, std::span<const double> limits, std::span<Vec3> impulses);
+
+  const world::World& world_;
+  ContactSweeps sweeps_;
+  std::vector<double> mu_;   // of each contact of the set at hand
+  std::vector<char> holds_;  // of each contact of the last push: it sticks
+};
+
+}  // namespace fc::friction

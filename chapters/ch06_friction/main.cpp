@@ -1,0 +1,86 @@
+// Chapter 6: friction. Chapter 5's step with Coulomb's law at each contact.
+#include <fmt/format.h>
+
+#include "ch05_resting_contact/rest_run.hpp"
+#include "ch06_friction/coulomb_law.hpp"
+
+namespace {
+
+using namespace fc;
+
+// Friction needs contacts that last: the envelope is that of chapter 5, its default if the scene names none.
+Scene with_envelope(const Scene& scene) {
+  Scene result = scene;
+  if (!result.envelope) result.envelope = 0;
+  return result;
+}
+
+std::vector<Effect> explain(const Scene& scene) {
+  if (!friction::asks_for_friction(scene))
+    return scene.envelope ? resting::explain(scene) : world::explain(scene);
+  std::vector<Effect> list = resting::explain(with_envelope(scene));
+  std::erase_if(list, [](const Effect& effect) { return effect.name == "no rotation"; });
+  const world::World world = world::build_world(scene);
+  for (std::size_t a = 0; a < world.shapes.size(); ++a)
+    for (std::size_t b = a; b < world.shapes.size(); ++b) {
+      const double mu = world.pair_rules.friction(world.shapes, static_cast<int>(a), static_cast<int>(b));
+      list.push_back(
+          {"friction", fmt::format("pair of '{}' and '{}'", world.shapes[a].name, world.shapes[b].name),
+           mu > 0 ? fmt::format("µ = {:.6g}: three rows a contact", mu) : "µ = 0: one row a contact",
+           mu > 0 ? 3 : 1});
+    }
+  return list;
+}
+
+int run(const Scene& scene, const RunContext& context, Summary& summary) {
+  if (!friction::asks_for_friction(scene)) {
+    if (scene.envelope) return resting::run_scene(scene, context, summary);
+    return world::run_scene(scene, context, summary, world::step, true);
+  }
+  resting::RunOptions options;
+  options.law = [](world::World& world) { return std::make_unique<friction::CoulombLaw>(world); };
+  double work = 0;
+  options.columns = [&work](const resting::RestReport& last) {
+    world::MoreColumns more;
+    more.columns = {{"friction_work", "J"}};
+    more.cells = [&last, &work] {
+      work += last.tangential_work;
+      return std::vector<Cell>{last.tangential_work};
+    };
+    more.contact_columns = {{"tx", "N s"},          {"ty", "N s"},         {"tz", "N s"},
+                            {"slip_before", "m/s"}, {"slip_after", "m/s"}, {"patch", ""}};
+    more.contact_cells = [](const world::ImpactRecord& record) {
+      const Vec3& t = record.tangential;
+      return std::vector<Cell>{
+          t.x(), t.y(), t.z(), record.slip_before.norm(), record.slip_after.norm(), std::int64_t{-1}};
+    };
+    return more;
+  };
+  const int code = resting::run_scene(with_envelope(scene), context, summary, options);
+  summary.add("work of friction", work, "J");
+  return code;
+}
+
+void check(const Scene& scene) {
+  if (scene.envelope || friction::asks_for_friction(scene))
+    resting::check(with_envelope(scene));
+  else
+    world::build_world(scene);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Chapter chapter;
+  chapter.number = 6;
+  chapter.name = "ch06_friction";
+  chapter.purpose =
+      "Moves rigid bodies that collide, rest, slide, roll and stick, by Coulomb's law with the exact cone. With the key "
+      "`friction` (of the scene, a shape or a pair) contacts of that pair have three rows, at impacts and at rest; without it, "
+      "or where it is 0, everything is as in chapter 5, to the byte.";
+  chapter.example = "build/bin/ch06_friction chapters/ch06_friction/scenes/slope.yaml";
+  chapter.explain = explain;
+  chapter.run = run;
+  chapter.check = check;
+  return run_program(argc, argv, chapter);
+}
