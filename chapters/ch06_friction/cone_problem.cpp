@@ -13,8 +13,8 @@ namespace {
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 // Relative to its largest entry: beyond it, A's two triangles are two different problems.
 constexpr double kAsymmetry = 1e-10;
-// A contact is strictly inside its cone if it lacks this share of µ r_N, and slides if it is not, and moves faster
-// than this share of max|b|: below it the direction of u_T is round-off.
+// A contact is strictly inside its cone if it lacks this share of µ r_N. Velocities below the other share of max|b|,
+// and friction that changes velocities by less, have no direction that would not be round-off.
 constexpr double kInside = 1e-6;
 constexpr double kSlides = 1e-6;
 
@@ -73,7 +73,8 @@ void check_arguments(const ConeProblem& problem) {
                                 std::to_string(n) + " coefficients; 3n by 3n, 3n and n are needed");
   }
   if (!problem.A.allFinite() || !problem.b.allFinite() || !problem.mu.allFinite())
-    throw std::invalid_argument("friction: an entry of the matrix, the vector or the coefficients is not finite");
+    throw std::invalid_argument(
+        "friction: an entry of the matrix, the vector or the coefficients is not finite");
   for (Eigen::Index i = 0; i < n; ++i) {
     if (problem.mu[i] < 0) {
       throw std::invalid_argument("friction: contact " + std::to_string(i) + " has the coefficient " +
@@ -114,15 +115,18 @@ double residual_rounding(const ConeProblem& problem) {
 
 PhysicalErrors physical_errors(const ConeProblem& problem, const VecX& r, const VecX& u) {
   PhysicalErrors errors;
-  const double slides = problem.contacts() > 0 ? kSlides * problem.b.lpNorm<Eigen::Infinity>() : 0.0;
+  if (problem.contacts() == 0) return errors;
+  const double slow = kSlides * problem.b.lpNorm<Eigen::Infinity>();
+  const VecX scale = contact_scales(problem);
   for (Eigen::Index i = 0; i < problem.contacts(); ++i) {
     const double bound = problem.mu[i] * r[3 * i];
     const Eigen::Vector2d friction = r.segment<2>(3 * i + 1), slip = u.segment<2>(3 * i + 1);
     errors.approach = std::max(errors.approach, -u[3 * i]);
     errors.cone_excess = std::max(errors.cone_excess, friction.norm() - bound);
+    if (scale[i] * bound <= slow) continue;
     if (friction.norm() < (1 - kInside) * bound) {
       errors.creep = std::max(errors.creep, slip.norm());
-    } else if (friction.norm() > 0 && slip.norm() > slides) {
+    } else if (slip.norm() > slow) {
       const double cross = friction[0] * slip[1] - friction[1] * slip[0];
       errors.angle = std::max(errors.angle, std::abs(std::atan2(cross, -friction.dot(slip))));
     }
@@ -140,15 +144,15 @@ bool acceptable(const ConeProblem& problem, const VecX& r, const VecX& u) {
     if (!(std::abs(u[i] - again[i]) <= rounding + 8 * kEpsilon * std::abs(problem.b[i]))) return false;
   }
   // Written so that an overflow, which makes a measure infinite, gives "no".
-  return rounding <= 1e-3 * m.b_size &&
-         m.violation <= 1e-6 * m.b_size + (1 + largest_mu(problem)) * rounding;
+  return rounding <= 1e-3 * m.b_size && m.violation <= 1e-6 * m.b_size + (1 + largest_mu(problem)) * rounding;
 }
 
 double energy_change(const ConeProblem& problem, const VecX& r) {
   return r.dot(problem.b) + 0.5 * r.dot(problem.A * r);
 }
 
-void judge(const ConeProblem& problem, const VecX& r, double tolerance, Status otherwise, ConeResult& result) {
+void judge(const ConeProblem& problem, const VecX& r, double tolerance, Status otherwise,
+           ConeResult& result) {
   result.r = r;
   result.u = lcp::evaluate(problem.A, problem.b, r);
   result.residual = residual(problem, result.r, result.u);

@@ -28,25 +28,26 @@ struct ConeProblem {
   Mat3 block(Eigen::Index i) const { return A.block<3, 3>(3 * i, 3 * i); }
 };
 
-// The same violation in physical units, as an engineer would ask for it.
+// The same violation in physical units, as an engineer would ask for it. Of contacts without friction worth the name
+// (µ r_N that changes no velocity by more than 1e-6 max|b|) only the first two.
 struct PhysicalErrors {
   double approach = 0;     // m/s, max -u_N: how fast bodies still approach
   double cone_excess = 0;  // N s, max |r_T| - µ r_N: friction that the normal impulse does not pay for
-  double creep = 0;        // m/s, max |u_T| of a contact strictly inside its cone (by 1e-6 of its size)
-  double angle = 0;        // rad, max angle between r_T and -u_T where a contact slides (see kSlides in the source)
+  double creep = 0;        // m/s, max |u_T| of a contact inside its cone (|r_T| < (1 - 1e-6) µ r_N)
+  double angle = 0;        // rad, max angle of r_T and -u_T where a contact slides (|u_T| > 1e-6 max|b|)
 };
 
 // What every solver returns. Unless solved, r and u are where the method stopped: finite, and not to be used as
 // an answer.
 struct ConeResult {
   Status status = Status::limit;
-  VecX r;                // 3n, N s
-  VecX u;                // 3n, m/s, always A r + b, computed anew from r
-  double residual = 0;   // of (r, u), see residual()
-  int sweeps = 0;        // Gauss-Seidel's, over all contacts
-  int steps = 0;         // Newton's, each with a factorisation of a 3n by 3n matrix
-  int pivots = 0;        // Lemke's or Dantzig's, of all their solves
-  double relaxation = 1; // the smallest that Gauss-Seidel used; 1: plain
+  VecX r;                 // 3n, N s
+  VecX u;                 // 3n, m/s, always A r + b, computed anew from r
+  double residual = 0;    // of (r, u), see residual()
+  int sweeps = 0;         // Gauss-Seidel's, over all contacts
+  int steps = 0;          // Newton's, each with a factorisation of a 3n by 3n matrix
+  int pivots = 0;         // Lemke's or Dantzig's, of all their solves
+  double relaxation = 1;  // the smallest that Gauss-Seidel used; 1: plain
 };
 
 // Throws std::invalid_argument unless A is 3n by 3n, b is 3n and mu n long, every entry is finite and mu >= 0.

@@ -35,11 +35,11 @@ class OneContact {
 
  private:
   double mu_, a_;
-  Vec2 c_;            // c/a in D̂'s eigenbasis
-  Vec2 delta_;        // 1/kg, D̂'s eigenvalues, ascending; 0 for a direction in which nothing moves
-  Vec2 axis_;         // of the first; the second's is it turned by 90°
-  double size_;       // 1/kg, A's largest entry
-  bool one_root_;     // the inequality above holds
+  Vec2 c_;         // c/a in D̂'s eigenbasis
+  Vec2 delta_;     // 1/kg, D̂'s eigenvalues, ascending; 0 for a direction in which nothing moves
+  Vec2 axis_;      // of the first; the second's is it turned by 90°
+  double size_;    // 1/kg, A's largest entry
+  bool one_root_;  // the inequality above holds
 };
 
 }  // namespace fc::friction

@@ -96,15 +96,15 @@ double SlipEquation::root_between(double low, double high) const {
 double SlipEquation::least_root(bool one_root) const {
   const double most = beyond_all_roots();
   if (!std::isfinite(most)) return most;
-  if (one_root || (c[0] * d[0] <= 0 && c[1] * d[1] <= 0)) return root_between(0, most);  // f falls, or is convex
+  if (one_root || (c[0] * d[0] <= 0 && c[1] * d[1] <= 0))
+    return root_between(0, most);  // f falls, or is convex
   const double tau = delta[1] > 0 ? delta[1] : most;
   const Polynomial down{1, -1}, L1{delta[0], tau - delta[0]}, L2{delta[1], tau - delta[1]};
   const Polynomial y1 = times({d[0]}, times(down, L2)), y2 = times({d[1]}, times(down, L1));
   const Polynomial bound = sum(mu * free, times(L1, L2), mu, sum(c[0], y1, c[1], y2));
   const Polynomial quartic = sum(1, sum(1, times(y1, y1), 1, times(y2, y2)), -1, times(bound, bound));
   std::array<double, 4> turns{};
-  const int count =
-      sign_changes({quartic[1], 2 * quartic[2], 3 * quartic[3], 4 * quartic[4], 0}, 3, turns);
+  const int count = sign_changes({quartic[1], 2 * quartic[2], 3 * quartic[3], 4 * quartic[4], 0}, 3, turns);
   double low = 0;
   for (int k = 0; k < count; ++k) {
     const double t = turns[static_cast<std::size_t>(k)], alpha = tau * t / (1 - t);

@@ -1,0 +1,95 @@
+#include "ch06_friction/boxed.hpp"
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "ch03_impulse_lcp/dantzig.hpp"
+#include "ch06_friction/start.hpp"
+
+namespace fc::friction {
+namespace {
+
+constexpr int kBoxRounds = 50;
+constexpr double kSettled = 1e-12;
+
+// One LCP over the normals, and over those tangents whose bound is positive.
+class Boxes {
+ public:
+  explicit Boxes(const ConeProblem& problem) : problem_(problem) {}
+  // radius: n, N s. Sets r, 3n, from a solved LCP. Returns its status.
+  Status solve(const VecX& radius, VecX& r);
+  int pivots() const { return pivots_; }
+
+ private:
+  const ConeProblem& problem_;
+  lcp::DantzigSolver solver_;
+  lcp::LcpResult answer_;
+  int pivots_ = 0;
+};
+
+Status Boxes::solve(const VecX& radius, VecX& r) {
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index i = 0; i < problem_.contacts(); ++i) {
+    for (Eigen::Index k = 0; k < (radius[i] > 0 ? 3 : 1); ++k) rows.push_back(3 * i + k);
+  }
+  const auto size = static_cast<Eigen::Index>(rows.size());
+  const MatX A = problem_.A(rows, rows);
+  const VecX b = problem_.b(rows);
+  VecX lower(size), upper(size);
+  for (Eigen::Index k = 0; k < size; ++k) {
+    const Eigen::Index row = rows[static_cast<std::size_t>(k)];
+    const bool normal = row % 3 == 0;
+    upper[k] = normal ? std::numeric_limits<double>::infinity() : radius[row / 3];
+    lower[k] = normal ? 0.0 : -radius[row / 3];
+  }
+  solver_.solve({A, b, &lower, &upper}, {}, answer_);
+  pivots_ += answer_.pivots;
+  if (answer_.status != Status::solved) return answer_.status;
+  r.setZero();
+  r(rows) = answer_.z;
+  return Status::solved;
+}
+
+}  // namespace
+
+ConeResult solve_frictionless(const ConeProblem& problem, const SolveOptions& options) {
+  ConeResult result;
+  if (refused(problem, options, result)) return result;
+  const VecX none = VecX::Zero(problem.contacts());
+  VecX r = VecX::Zero(problem.b.size());
+  Boxes boxes(problem);
+  const Status status = boxes.solve(none, r);
+  judge({problem.A, problem.b, none}, r, options.tolerance, Status::limit, result);
+  if (status != Status::solved) result.status = status;
+  result.pivots = boxes.pivots();
+  return result;
+}
+
+ConeResult solve_boxed(const ConeProblem& problem, const SolveOptions& options) {
+  ConeResult result;
+  if (refused(problem, options, result)) return result;
+  const int limit = options.limit > 0 ? options.limit : kBoxRounds;
+  const VecX scale = contact_scales(problem);
+  VecX radius = VecX::Zero(problem.contacts()), r = VecX::Zero(problem.b.size());
+  Boxes boxes(problem);
+  Status status = boxes.solve(radius, r);
+  int rounds = 0;
+  for (bool settled = false; status == Status::solved && !settled && rounds < limit; ++rounds) {
+    const VecX before = r;
+    for (Eigen::Index i = 0; i < radius.size(); ++i) radius[i] = problem.mu[i] * r[3 * i];
+    status = boxes.solve(radius, r);
+    settled = true;
+    for (Eigen::Index i = 0; i < radius.size(); ++i) {
+      const double change = scale[i] * std::abs(r[3 * i] - before[3 * i]);
+      settled = settled && change <= kSettled * problem.b.lpNorm<Eigen::Infinity>();
+    }
+  }
+  judge(problem, r, options.tolerance, Status::limit, result);
+  if (status != Status::solved) result.status = status;
+  result.sweeps = rounds;
+  result.pivots = boxes.pivots();
+  return result;
+}
+
+}  // namespace fc::friction

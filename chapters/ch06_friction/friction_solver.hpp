@@ -1,0 +1,54 @@
+// All solvers of the chapter behind one function, as in chapter 3: problem in, result out, and nobody's word is
+// taken for it.
+#pragma once
+
+#include <array>
+#include <ostream>
+#include <string_view>
+
+#include "ch06_friction/cone_problem.hpp"
+
+namespace fc::friction {
+
+enum class Method {
+  combined,      // the default: the others in turn, see solve()
+  gauss_seidel,  // gauss_seidel.hpp: contact by contact, exactly
+  newton,        // newton.hpp: quadratic near an answer
+  pyramid,       // pyramid.hpp: Lemke's method on a cone of flat sides, turned into the slip
+  boxed,         // boxed.hpp: Dantzig's method with bounds on each tangent; what it gets wrong is a lesson
+};
+
+inline constexpr std::array<Method, 5> kMethods = {Method::combined, Method::gauss_seidel, Method::newton,
+                                                   Method::pyramid, Method::boxed};
+
+// "combined", "gauss_seidel", "newton", "pyramid", "boxed".
+std::string_view name(Method method);
+inline std::ostream& operator<<(std::ostream& out, Method method) {
+  return out << name(method);
+}
+// The method of that name. Throws std::invalid_argument for another word.
+Method method_named(std::string_view name);
+
+struct SolveOptions {
+  int limit = 0;                // sweeps, steps or rounds; 0: the method's own, stated in its header
+  double tolerance = 1e-10;     // the residual at which a method stops, and that its answer must have
+  const VecX* start = nullptr;  // 3n, a guess of r (the last step's, say), projected onto the cones; null: 0
+  int sides = 8;                // of a pyramid, even, >= 4
+  bool turned = true;           // whether a pyramid's sides follow the slip
+};
+
+// Solves the problem by the method. Guarantee: `solved` only if the result passed acceptable() and has the
+// residual asked for (or one at the level of round-off); a matrix that is not symmetric, or has a negative
+// diagonal, is `unsuited`; a contact whose rows are zero while its b approaches has `no_solution`. Throws
+// std::invalid_argument for arguments that check_arguments() refuses, and a start of another size.
+//
+// `combined`, in this order, until one is solved:
+//   without any friction, chapter 3's method of Dantzig on the normals alone;
+//   Gauss-Seidel, until it is near or does not get nearer;
+//   Newton's method from there;
+//   the pyramid's answer, from r = 0, and Newton's method from there;
+//   Gauss-Seidel relaxed, to its limit, and Newton's method again.
+ConeResult solve(const ConeProblem& problem, Method method = Method::combined,
+                 const SolveOptions& options = {});
+
+}  // namespace fc::friction
