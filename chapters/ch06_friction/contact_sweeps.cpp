@@ -10,17 +10,8 @@ namespace fc::friction {
 namespace {
 
 // After so many sweeps without progress impulses go but a part of their way; not less than the second.
-constexpr int kWatch = 50;
-constexpr double kProgress = 0.9, kLeastRelaxation = 1.0 / 16;
-
-// Two tangents, continuous but for normals along one axis. Nothing depends on which: each contact is solved exactly.
-Mat3 frame_of(const Vec3& normal) {
-  Mat3 frame;
-  frame.col(0) = normal;
-  frame.col(1) = (std::abs(normal.x()) < 0.6 ? Vec3::UnitX() : Vec3::UnitY()).cross(normal).normalized();
-  frame.col(2) = normal.cross(frame.col(1));
-  return frame;
-}
+constexpr int kPatience = 50;
+constexpr double kClearly = 0.9, kLeastShare = 1.0 / 16;
 
 Mat3 cross_matrix(const Vec3& v) {
   Mat3 m;
@@ -49,6 +40,14 @@ Eigen::Vector2d disc_friction(const Eigen::Matrix2d& D, const Eigen::Vector2d& d
 
 }  // namespace
 
+Mat3 contact_frame(const Vec3& normal) {
+  Mat3 frame;
+  frame.col(0) = normal;
+  frame.col(1) = (std::abs(normal.x()) < 0.6 ? Vec3::UnitX() : Vec3::UnitY()).cross(normal).normalized();
+  frame.col(2) = normal.cross(frame.col(1));
+  return frame;
+}
+
 void ContactSweeps::start(std::span<const RigidBody> bodies) {
   blocks_.clear();
   bodies_.clear();
@@ -59,7 +58,7 @@ void ContactSweeps::start(std::span<const RigidBody> bodies) {
 
 void ContactSweeps::add(const lcp::Contact& contact, double mu, double limit, const Vec3& impulse) {
   const Mass &a = bodies_[index(contact.body_a)], &b = bodies_[index(contact.body_b)];
-  const Mat3 frame = frame_of(contact.normal);
+  const Mat3 frame = contact_frame(contact.normal);
   const Vec3 arm_a = contact.turns_a ? Vec3(contact.point - a.place) : Vec3(Vec3::Zero());
   const Vec3 arm_b = contact.turns_b ? Vec3(contact.point - b.place) : Vec3(Vec3::Zero());
   const auto part = [&](const Mass& mass, const Vec3& arm) -> Mat3 {
@@ -143,8 +142,8 @@ void ContactSweeps::run(int most, double tolerance, const Solve& solve) {
     const double change = sweep(k % 2 == 1, relaxation, solve) / relaxation;
     if (change <= enough) return;
     best = std::min(best, change);
-    if (k % kWatch != kWatch - 1) continue;
-    if (best > kProgress * before) relaxation = std::max(0.5 * relaxation, kLeastRelaxation);
+    if (k % kPatience != kPatience - 1) continue;
+    if (best > kClearly * before) relaxation = std::max(0.5 * relaxation, kLeastShare);
     before = best;
   }
 }

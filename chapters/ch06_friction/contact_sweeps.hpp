@@ -17,6 +17,9 @@ enum class Law {
   disc,     // the normal impulse is given, and friction is of at most a given size (Tresca)
 };
 
+// The columns: a contact's normal (unit) and two tangents. Nothing depends on which: each contact is solved exactly.
+Mat3 contact_frame(const Vec3& normal);
+
 // Three lines a contact, one where there is no friction. Velocities of bodies are those with all impulses.
 class ContactSweeps {
  public:

@@ -11,10 +11,10 @@ namespace {
 
 using resting::at;
 
-// Sweeps until impulses change by less than this, of the largest velocity; and what is good enough after so many.
-constexpr double kTolerance = 1e-13, kAccepted = 1e-9;
-constexpr int kSweeps = 300, kManySweeps = 3000;
-constexpr int kMostDense = 60;  // contacts, of which the matrix is looked at where sweeps do not get on
+// Sweeps until impulses change by less than this, of the largest velocity. With a larger residual than the second the matrix is
+// looked at, of so many contacts at most; then many sweeps are tried, and with more than the last it is not solved.
+constexpr double kTolerance = 1e-14, kExact = 1e-12, kAccepted = 1e-6;
+constexpr int kFewSweeps = 40, kMostOfMatrix = 60, kManySweeps = 3000;
 
 // A contact inside its cone by more than this part of it sticks.
 constexpr double kSticking = 1e-9;
@@ -59,22 +59,24 @@ void CoulombLaw::start(const ContactSet& set, std::span<const double> limits,
     sweeps_.add(set.contacts[i], mu_[i], limits[i], impulses[i]);
 }
 
+void CoulombLaw::sweep(const ContactSet& set, std::span<const double> limits, int most,
+                       std::span<Vec3> impulses, IslandResult& result) {
+  start(set, limits, impulses);
+  result.residual = sweeps_.run(most, kTolerance);
+  for (std::size_t i = 0; i < impulses.size(); ++i) impulses[i] = sweeps_.impulse(static_cast<int>(i));
+}
+
 // ANCHOR: push
 IslandResult CoulombLaw::push(const ContactSet& set, std::span<const double> limits, std::span<Vec3> impulses,
                               const IslandOptions& options) {
   holds_.assign(set.contacts.size(), 0);
   if (!rubs(set)) return NormalLaw::push(set, limits, impulses, options);
-  start(set, limits, impulses);
   IslandResult result;
-  result.residual = sweeps_.run(kSweeps, kTolerance);
-  for (std::size_t i = 0; i < impulses.size(); ++i) impulses[i] = sweeps_.impulse(static_cast<int>(i));
-  if (result.residual > kAccepted && !solve_densely(set, limits, impulses)) {
-    start(set, limits, impulses);
-    result.residual = sweeps_.run(kManySweeps, kTolerance);
-    for (std::size_t i = 0; i < impulses.size(); ++i) impulses[i] = sweeps_.impulse(static_cast<int>(i));
-    if (!(result.residual <= 1e-6)) return result;
-  }
-  result.solved = true;
+  sweep(set, limits, kFewSweeps, impulses, result);
+  if (result.residual > kExact && !solve_by_matrix(set, limits, impulses, result))
+    sweep(set, limits, kManySweeps, impulses, result);
+  result.solved = result.residual <= kAccepted;
+  if (!result.solved) return result;
   result.status = lcp::Status::solved;
   for (std::size_t i = 0; i < impulses.size(); ++i) {
     lcp::apply_impulse(set.bodies, set.contacts[i], impulses[i]);
@@ -86,8 +88,35 @@ IslandResult CoulombLaw::push(const ContactSet& set, std::span<const double> lim
 }
 // ANCHOR_END: push
 
-bool CoulombLaw::solve_densely(const ContactSet&, std::span<const double>, std::span<Vec3>) {
-  return false;
+// With the matrix, Newton's method finds in a few steps what sweeps come near to, one by one; from where they got to.
+bool CoulombLaw::solve_by_matrix(const ContactSet& set, std::span<const double> limits,
+                                 std::span<Vec3> impulses, IslandResult& result) {
+  const auto n = static_cast<Eigen::Index>(set.contacts.size());
+  if (n > kMostOfMatrix) return false;
+  std::vector<lcp::Contact> rows;  // of each contact along its normal and two tangents
+  VecX limit = VecX::Zero(3 * n), guess(3 * n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const lcp::Contact& contact = set.contacts[static_cast<std::size_t>(i)];
+    const Mat3 frame = contact_frame(contact.normal);
+    for (int k = 0; k < 3; ++k) {
+      rows.push_back(contact);
+      rows.back().normal = frame.col(k);
+    }
+    limit[3 * i] = limits[static_cast<std::size_t>(i)];
+    guess.segment<3>(3 * i) = frame.transpose() * impulses[static_cast<std::size_t>(i)];
+  }
+  const lcp::ImpactProblem problem = lcp::assemble(set.bodies, rows);
+  const VecX b = problem.v_before + limit, mu = Eigen::Map<const VecX>(mu_.data(), n);
+  const ConeProblem cones{problem.A, b, mu};
+  ConeResult found = solve(cones, Method::newton, {.start = &guess});
+  if (found.status != Status::solved) found = solve(cones, Method::combined, {.start = &guess});
+  if (!found.r.allFinite() || found.residual > result.residual) return false;
+  result.residual = found.residual;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const std::size_t c = static_cast<std::size_t>(i);
+    impulses[c] = contact_frame(set.contacts[c].normal) * found.r.segment<3>(3 * i);
+  }
+  return result.residual <= kAccepted;
 }
 
 IslandResult CoulombLaw::correct(const ContactSet& set, std::span<const double> limits,
@@ -131,7 +160,7 @@ std::unique_ptr<resting::GaussSeidel> CoulombLaw::gauss_seidel() const {
 // on the way, it stops there; if the push stops it at once, half of the time is tried.
 double CoulombLaw::holds_until(const ContactSet& mean, std::span<const RigidBody> now,
                                std::span<const Vec3> impulses, double length) const {
-  if (mean.contacts.size() > kMostDense) return length;
+  if (mean.contacts.size() > kMostOfMatrix) return length;
   double until = length;
   for (std::size_t i = 0; i < mean.contacts.size(); ++i) {
     const lcp::Contact& contact = mean.contacts[i];

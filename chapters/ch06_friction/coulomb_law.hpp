@@ -4,6 +4,7 @@
 #include "ch05_resting_contact/contact_law.hpp"
 #include "ch06_friction/contact_sweeps.hpp"
 #include "ch06_friction/friction_patches.hpp"
+#include "ch06_friction/friction_solver.hpp"
 
 namespace fc::friction {
 
@@ -37,7 +38,10 @@ class CoulombLaw : public resting::NormalLaw {
   double mu(const ContactSet& set, const lcp::Contact& contact) const;
   bool rubs(const ContactSet& set);
   void start(const ContactSet& set, std::span<const double> limits, std::span<const Vec3> impulses);
-  bool solve_densely(const ContactSet& set, std::span<const double> limits, std::span<Vec3> impulses);
+  void sweep(const ContactSet& set, std::span<const double> limits, int most, std::span<Vec3> impulses,
+             IslandResult& result);
+  bool solve_by_matrix(const ContactSet& set, std::span<const double> limits, std::span<Vec3> impulses,
+                       IslandResult& result);
 
   const world::World& world_;
   ContactSweeps sweeps_;
