@@ -1,0 +1,28 @@
+// The random scenes of chapter 5 with friction: the same laws, in each frame.
+#include "../ch05/random_scenes.hpp"
+#include "ch06_friction/coulomb_law.hpp"
+
+namespace {
+
+// Friction of the scene, and of some of its shapes.
+std::string with_friction(unsigned seed, const std::string& text) {
+  fc_test::Random random{std::mt19937_64(7919 * seed + 1)};
+  std::string result = fmt::format("friction: {}\n", random.chance(0.2) ? 0.0 : random.log(0.05, 1.5)) + text;
+  const std::string mass = ", mass: ";
+  for (std::size_t at = result.find(mass); at != std::string::npos; at = result.find(mass, at + 1))
+    if (random.chance(0.2)) {
+      const std::string own = fmt::format(", friction: {}", random.chance(0.3) ? 0.0 : random.log(0.01, 3));
+      result.insert(at, own);
+      at += own.size();
+    }
+  return result;
+}
+
+TEST(RandomScenesWithFriction, KeepTheLaws) {
+  fc_test::expect_laws_kept(
+      fc_test::kScenes / 2, 6,
+      [](fc::world::World& world) { return std::make_unique<fc::friction::CoulombLaw>(world); },
+      with_friction);
+}
+
+}  // namespace
