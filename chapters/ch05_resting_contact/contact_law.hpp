@@ -32,6 +32,8 @@ class ContactLaw {
   // velocities in the set.
   virtual double holds_until(const ContactSet& mean, std::span<const RigidBody> now,
                              std::span<const Vec3> impulses, double length) const = 0;
+  // How many times dearer than along normals alone a solution is: piles begin at so many times less work.
+  virtual double work_factor() const { return 1; }
   // The sweeps of a pile.
   virtual std::unique_ptr<GaussSeidel> gauss_seidel() const { return std::make_unique<GaussSeidel>(); }
 };

@@ -104,8 +104,7 @@ PlanMaker::Result PlanMaker::make(const world::World& world, const Island& islan
     }
     if (ends != Result::proved) return ends;
     if (gains()) return Result::unproved;
-    meeting_ = holds_until();
-    if (meeting_ < length) return Result::meets;
+    if (options_.may_change && (meeting_ = holds_until()) < length) return Result::changes;
     courses_.find(world, false);
     for (std::size_t i = fast_.size(); i < courses_.members.size(); ++i) {
       fast_.push_back(courses_.members[i].state);

@@ -31,7 +31,8 @@ struct Planned {
 
 struct PlanOptions {
   IslandOptions solver;
-  double rest_speed = 0;  // m/s: what comes in faster ends the plan when it is there
+  double rest_speed = 0;   // m/s: what comes in faster ends the plan when it is there
+  bool may_change = true;  // the plan may end where its impulses have to change
 };
 
 // A motion of which velocities begin as the member's and end as `end`, without what it gets on arrival.
@@ -54,14 +55,14 @@ class PlanMaker {
   PlanMaker(Contacts& contacts, ContactLaw& law)
       : contacts_(contacts), law_(law), courses_(contacts, false) {}
 
-  enum class Result { proved, unproved, meets, unsolved };
+  enum class Result { proved, unproved, meets, changes, unsolved };
   // For `length` seconds from `now` on (s in the frame).
   Result make(const world::World& world, const Island& island, double now, double length,
               const PlanOptions& options);
   // What was made. The forces that it found are guesses for the next plan.
   Planned take();
 
-  // If it meets: when the first two bodies that bounce are there, or impulses have to change, s from the plan's start.
+  // If it meets or changes: when the first two bodies that bounce are there, or impulses have to change, s from the plan's start.
   double meeting() const { return meeting_; }
   double worst_residual() const { return residual_; }
   lcp::Status status() const { return status_; }  // of the last solution that failed,

@@ -13,6 +13,9 @@ namespace {
 // may shrink without end (compare the TC model, Luding and McNamara 1998).
 constexpr int kMostBounces = 64;
 
+// So often the plans of a body end in a frame because impulses have to change.
+constexpr int kMostChanges = 8;
+
 // A plan is halved where its paths are not clear, down to this part of a frame.
 constexpr double kShortest = 1.0 / 4096;
 
@@ -59,8 +62,10 @@ Resting::Resting(const Scene& scene, world::World& world, double dt, const RestO
       frame_(dt),
       dt_(dt),
       meetings_(world.bodies.size(), 0),
+      changes_(world.bodies.size(), 0),
       try_length_(world.bodies.size(), std::numeric_limits<double>::infinity()),
       energy_(world.bodies.size(), 0) {
+  options_.most_work /= law_->work_factor();
   const SolverSpec usual;
   const SolverSpec& solver = world.solver;
   if (solver.method != usual.method || solver.limit != usual.limit || solver.tolerance != usual.tolerance) {
@@ -74,6 +79,7 @@ RestReport Resting::step(world::World& world, const world::Listeners& listeners)
   report_ = {};
   contacts_.next_frame();
   std::fill(meetings_.begin(), meetings_.end(), 0);
+  std::fill(changes_.begin(), changes_.end(), 0);
   records_.clear();
   const std::int64_t searched = contacts_.searched();
   world::StepReport report = world::step_with(*this, world, frame_, listeners);
@@ -287,20 +293,27 @@ bool Resting::plan(Instant& instant, Island& island) {
     for (ContactPoint& point : pair.contacts->points) point.lasts = false;
   const double left = dt_ - instant.now;
   double length = left;
-  for (const Member& member : island.members)
-    if (member.dynamic) length = std::min(length, try_length_[at(member.number)]);
+  bool may_change = true;
+  for (const Member& member : island.members) {
+    if (!member.dynamic) continue;
+    length = std::min(length, try_length_[at(member.number)]);
+    may_change = may_change && changes_[at(member.number)] < kMostChanges;
+  }
   if (length > kNearlyAll * left) length = left;
   using Result = PlanMaker::Result;
   for (;;) {
-    const Result result =
-        maker_.make(instant.world, island, instant.now, length, {options_.solver, envelope() / dt_});
+    const Result result = maker_.make(instant.world, island, instant.now, length,
+                                      {options_.solver, envelope() / dt_, may_change});
     report_.checked += maker_.checked();
     instant.report.solves += maker_.solves();
     instant.report.lcp_residual = std::max(instant.report.lcp_residual, maker_.worst_residual());
     if (result == Result::proved) break;
     if (result == Result::unsolved && options_.solver.chosen)
       throw lcp::unsolved(instant.world.solver, maker_.status(), maker_.steps(), maker_.worst_residual());
-    const bool meets = result == Result::meets && maker_.meeting() > kShortest * dt_;
+    if (result == Result::changes)
+      for (const Member& member : island.members) ++changes_[at(member.number)];
+    const bool meets =
+        (result == Result::meets || result == Result::changes) && maker_.meeting() > kShortest * dt_;
     if (result == Result::unsolved || (!meets && length < kShortest * dt_)) return false;
     length = meets ? std::min(maker_.meeting(), 0.999 * length) : 0.5 * length;
   }

@@ -13,6 +13,17 @@ namespace {
 constexpr int kPatience = 50;
 constexpr double kClearly = 0.9, kLeastShare = 1.0 / 16;
 
+constexpr double kDead = 1e-12;  // of the largest: directions in which no impulse moves anything
+
+// The pseudo-inverse of a symmetric positive semidefinite matrix.
+Eigen::Matrix2d inverse_where_it_moves(const Eigen::Matrix2d& D) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(D);
+  Eigen::Vector2d inverse = Eigen::Vector2d::Zero();
+  for (int k = 0; k < 2; ++k)
+    if (const double x = eigen.eigenvalues()[k]; x > kDead * eigen.eigenvalues()[1]) inverse[k] = 1 / x;
+  return eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
+}
+
 Mat3 cross_matrix(const Vec3& v) {
   Mat3 m;
   m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
@@ -76,10 +87,10 @@ void ContactSweeps::add(const lcp::Contact& contact, double mu, double limit, co
               OneContact(delassus, mu),
               mu,
               limit,
-              {},
-              {}};
+              inverse_where_it_moves(delassus.block<2, 2>(1, 1)),
+              project_onto_cone(frame.transpose() * impulse, mu),
+              Vec3::Zero()};
   block.start = relative_velocity(block) + Vec3(limit, 0, 0);
-  block.r = project_onto_cone(frame.transpose() * impulse, mu);
   blocks_.push_back(block);
 }
 
@@ -159,12 +170,10 @@ double ContactSweeps::run_held(std::span<const char> holds, int most, double tol
     if (!holds[index(i)]) return {a > 0 ? std::max(0.0, -q[0] / a) : 0.0, 0, 0};
     // The tangents' velocity is that at the start, whatever the normal impulse.
     const Eigen::Vector2d c = block.delassus.block<2, 1>(1, 0);
-    const Eigen::LDLT<Eigen::Matrix2d> D(block.delassus.block<2, 2>(1, 1));
     const Eigen::Vector2d still = q.tail<2>() - block.start.tail<2>();
-    const double effective = a - c.dot(D.solve(c)), speed = q[0] - c.dot(D.solve(still));
-    const double normal = effective > 1e-12 * a ? std::max(0.0, -speed / effective) : 0.0;
-    const Eigen::Vector2d tangent = -D.solve(still + normal * c);
-    if (!tangent.allFinite()) return {normal, 0, 0};
+    const double effective = a - c.dot(block.inverse * c), speed = q[0] - c.dot(block.inverse * still);
+    const double normal = effective > kDead * a ? std::max(0.0, -speed / effective) : 0.0;
+    const Eigen::Vector2d tangent = -(block.inverse * (still + normal * c));
     return {normal, tangent[0], tangent[1]};
   });
   return 0;

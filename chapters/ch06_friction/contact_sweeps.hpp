@@ -59,8 +59,10 @@ class ContactSweeps {
     Mat3 delassus;      // 1/kg, in the frame
     OneContact one;
     double mu, limit;
-    Vec3 r = Vec3::Zero();  // N s, in the frame
-    Vec3 start;             // m/s, u without impulses
+    Eigen::Matrix2d inverse =
+        Eigen::Matrix2d::Zero();  // kg, of the tangents' part of delassus, where it is not zero
+    Vec3 r = Vec3::Zero();        // N s, in the frame
+    Vec3 start;                   // m/s, u without impulses
   };
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
   Vec3 relative_velocity(const Block& block) const;  // m/s, in the frame

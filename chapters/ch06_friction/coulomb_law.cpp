@@ -11,10 +11,15 @@ namespace {
 
 using resting::at;
 
-// Sweeps until impulses change by less than this, of the largest velocity. With a larger residual than the second the matrix is
-// looked at, of so many contacts at most; then many sweeps are tried, and with more than the last it is not solved.
-constexpr double kTolerance = 1e-14, kExact = 1e-12, kAccepted = 1e-6;
-constexpr int kFewSweeps = 40, kMostOfMatrix = 60, kManySweeps = 3000;
+// Sweeps until impulses change by less than the first, of the largest velocity. The residual that is wanted of the contacts of one
+// body, and of more: Newton's method is tried, if there are few, then more sweeps. Above the last a solver that always has an answer.
+constexpr double kTolerance = 1e-14, kExact = 1e-12, kGood = 1e-8, kAccepted = 1e-4;
+constexpr int kFewSweeps = 40, kManySweeps = 600;
+// Contacts of which Newton's method is quicker than sweeps; and among which plans end
+// where a slip ends.
+constexpr int kOneBody = 8, kFew = 24, kFewSlips = 16;
+
+constexpr double kHeld = 1e-7;  // of the largest velocity, of corrections
 
 // A contact inside its cone by more than this part of it sticks.
 constexpr double kSticking = 1e-9;
@@ -73,8 +78,17 @@ IslandResult CoulombLaw::push(const ContactSet& set, std::span<const double> lim
   if (!rubs(set)) return NormalLaw::push(set, limits, impulses, options);
   IslandResult result;
   sweep(set, limits, kFewSweeps, impulses, result);
-  if (result.residual > kExact && !solve_by_matrix(set, limits, impulses, result))
+  const std::size_t count = set.contacts.size();
+  const double enough = count <= kOneBody ? kExact : kGood;
+  if (result.residual > enough && count <= kFew)
+    solve_by_matrix(set, limits, Method::newton, impulses, result);
+  if (result.residual > kGood) {
     sweep(set, limits, kManySweeps, impulses, result);
+    if (result.residual > kGood && count <= kFew)
+      solve_by_matrix(set, limits, Method::newton, impulses, result);
+  }
+  if (result.residual > kAccepted && count <= kFew)
+    solve_by_matrix(set, limits, Method::combined, impulses, result);
   result.solved = result.residual <= kAccepted;
   if (!result.solved) return result;
   result.status = lcp::Status::solved;
@@ -88,11 +102,10 @@ IslandResult CoulombLaw::push(const ContactSet& set, std::span<const double> lim
 }
 // ANCHOR_END: push
 
-// With the matrix, Newton's method finds in a few steps what sweeps come near to, one by one; from where they got to.
-bool CoulombLaw::solve_by_matrix(const ContactSet& set, std::span<const double> limits,
+// From where sweeps got to.
+void CoulombLaw::solve_by_matrix(const ContactSet& set, std::span<const double> limits, Method method,
                                  std::span<Vec3> impulses, IslandResult& result) {
   const auto n = static_cast<Eigen::Index>(set.contacts.size());
-  if (n > kMostOfMatrix) return false;
   std::vector<lcp::Contact> rows;  // of each contact along its normal and two tangents
   VecX limit = VecX::Zero(3 * n), guess(3 * n);
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -107,16 +120,13 @@ bool CoulombLaw::solve_by_matrix(const ContactSet& set, std::span<const double> 
   }
   const lcp::ImpactProblem problem = lcp::assemble(set.bodies, rows);
   const VecX b = problem.v_before + limit, mu = Eigen::Map<const VecX>(mu_.data(), n);
-  const ConeProblem cones{problem.A, b, mu};
-  ConeResult found = solve(cones, Method::newton, {.start = &guess});
-  if (found.status != Status::solved) found = solve(cones, Method::combined, {.start = &guess});
-  if (!found.r.allFinite() || found.residual > result.residual) return false;
+  const ConeResult found = solve(ConeProblem{problem.A, b, mu}, method, {.start = &guess});
+  if (!found.r.allFinite() || found.residual > result.residual) return;
   result.residual = found.residual;
   for (Eigen::Index i = 0; i < n; ++i) {
     const std::size_t c = static_cast<std::size_t>(i);
     impulses[c] = contact_frame(set.contacts[c].normal) * found.r.segment<3>(3 * i);
   }
-  return result.residual <= kAccepted;
 }
 
 IslandResult CoulombLaw::correct(const ContactSet& set, std::span<const double> limits,
@@ -127,7 +137,7 @@ IslandResult CoulombLaw::correct(const ContactSet& set, std::span<const double> 
   for (std::size_t i = 0; i < impulses.size(); ++i) guesses.push_back(impulses[i] * set.contacts[i].normal);
   start(set, limits, guesses);
   IslandResult result;
-  result.residual = sweeps_.run_held(holds_, kManySweeps, 1e-9);
+  result.residual = sweeps_.run_held(holds_, kManySweeps, kHeld);
   result.solved = result.residual <= 1e-3;
   if (!result.solved) return result;
   result.status = lcp::Status::solved;
@@ -160,7 +170,7 @@ std::unique_ptr<resting::GaussSeidel> CoulombLaw::gauss_seidel() const {
 // on the way, it stops there; if the push stops it at once, half of the time is tried.
 double CoulombLaw::holds_until(const ContactSet& mean, std::span<const RigidBody> now,
                                std::span<const Vec3> impulses, double length) const {
-  if (mean.contacts.size() > kMostOfMatrix) return length;
+  if (mean.contacts.size() > kFewSlips) return length;
   double until = length;
   for (std::size_t i = 0; i < mean.contacts.size(); ++i) {
     const lcp::Contact& contact = mean.contacts[i];

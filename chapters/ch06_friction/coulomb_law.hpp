@@ -30,6 +30,7 @@ class CoulombLaw : public resting::NormalLaw {
   // With friction of at most µ times what is given back.
   void give_back(const ContactSet& set, std::span<const double> normals, std::span<Vec3> total) override;
   // Until the first contact that slides comes to rest.
+  double work_factor() const override { return 10; }
   std::unique_ptr<resting::GaussSeidel> gauss_seidel() const override;
   double holds_until(const ContactSet& mean, std::span<const RigidBody> now, std::span<const Vec3> impulses,
                      double length) const override;
@@ -40,8 +41,8 @@ class CoulombLaw : public resting::NormalLaw {
   void start(const ContactSet& set, std::span<const double> limits, std::span<const Vec3> impulses);
   void sweep(const ContactSet& set, std::span<const double> limits, int most, std::span<Vec3> impulses,
              IslandResult& result);
-  bool solve_by_matrix(const ContactSet& set, std::span<const double> limits, std::span<Vec3> impulses,
-                       IslandResult& result);
+  void solve_by_matrix(const ContactSet& set, std::span<const double> limits, Method method,
+                       std::span<Vec3> impulses, IslandResult& result);
 
   const world::World& world_;
   ContactSweeps sweeps_;
