@@ -37,6 +37,11 @@ double reported_time(double now, double dt) {
   return std::min(now, (1 - kBeforeEnd) * dt);
 }
 
+// m, of the body's points from its centre; a ball's model reaches nowhere.
+double reach_of(const world::World& world, int body) {
+  return world.shapes[at(world.bodies[at(body)].shape)].reach;
+}
+
 double energy_of(const world::World& world, const RigidBody& state) {  // J
   return state.kinetic_energy() -
          (world.effects.gravity ? state.mass * world.effects.gravity->dot(state.position) : 0.0);
@@ -273,7 +278,7 @@ bool Resting::resolve(Instant& instant, Island& island) {
   }
   for (Member& member :
        island.members) {  // what is left of a velocity in contact that does not move the body
-    const double reach = instant.world.model_of(member.number).reach;
+    const double reach = reach_of(instant.world, member.number);
     const double speed = member.state.velocity.norm() + reach * member.state.spin.norm();
     if (member.dynamic && dt_ * speed < kStill * envelope())
       member.state.velocity = member.state.spin = Vec3::Zero();
@@ -390,7 +395,7 @@ void Resting::start(Instant& instant, Planned&& planned, double end) {
     body.plan = planned.motions[i];
     body.plan.number = number;
     const double path = dt_ * (body.plan.linear.norm() +
-                               instant.world.model_of(planned.bodies[i]).reach * body.plan.angular.norm());
+                               reach_of(instant.world, planned.bodies[i]) * body.plan.angular.norm());
     if (path < kStill * envelope()) body.plan.linear = body.plan.angular = Vec3::Zero();
   }
   plans_[at(number)] = {true, instant.now, end, std::move(planned)};

@@ -1,4 +1,4 @@
-// A scene's text stepped in chapter 5's way, with what each frame reported: for the oracles.
+// A scene's text stepped in chapter 5's way, by its law or another, with what each frame reported: for the oracles.
 #pragma once
 
 #include <cmath>
@@ -15,6 +15,9 @@ inline std::string number(double x) {
   return text;
 }
 
+// Makes the law of a world's contacts; none: chapter 5's.
+using LawFactory = std::function<std::unique_ptr<fc::resting::ContactLaw>(fc::world::World&)>;
+
 struct Simulation {
   fc::Scene scene;
   fc::world::World world;
@@ -28,15 +31,19 @@ struct Simulation {
   double residual = 0;             // of all frames' problems, the worst
   fc::resting::RestReport last;
 
-  Simulation(const fc::Scene& scene_, double dt_, const fc::resting::RestOptions& options = {})
-      : scene(scene_), world(fc::world::build_world(scene)), dt(dt_), resting(scene, world, dt_, options) {}
+  Simulation(const fc::Scene& scene_, double dt_, const fc::resting::RestOptions& options = {},
+             const LawFactory& law = {})
+      : scene(scene_),
+        world(fc::world::build_world(scene)),
+        dt(dt_),
+        resting(scene, world, dt_, options, law ? law(world) : nullptr) {}
   Simulation(const std::string& text, double dt_, const fc::resting::RestOptions& options = {})
       : Simulation(read(text), dt_, options) {}
 
-  static fc::Scene read(const std::string& text) {
+  static fc::Scene read(const std::string& text, int chapter = 5) {
     const auto file = scratch("scenes") / "scene.yaml";
     std::ofstream(file) << text;
-    return fc::read_scene({file, {}, {}, 5});
+    return fc::read_scene({file, {}, {}, chapter});
   }
   void step(const fc::world::Listeners& listeners = {}) {
     last = resting.step(world, listeners);
