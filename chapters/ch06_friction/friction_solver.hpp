@@ -35,6 +35,7 @@ struct SolveOptions {
   const VecX* start = nullptr;  // 3n, a guess of r (the last step's, say), projected onto the cones; null: 0
   int sides = 8;                // of a pyramid, even, >= 4
   bool turned = true;           // whether a pyramid's sides follow the slip
+  int draw = 0;  // where its sides begin: 0 at tangent 1; others, >= 0, at angles drawn by this number
 };
 
 // Solves the problem by the method. Guarantee: `solved` only if the result passed acceptable() and has the
@@ -46,8 +47,8 @@ struct SolveOptions {
 //   where no contact has friction, chapter 3's method of Dantzig on the normals alone;
 //   Gauss-Seidel's sweeps and, from where they are after 20, 50, 100, 200 and 400, Newton's steps (where sweeps go in
 //     circles, each is another start; Newton's only up to 300 contacts);
-//   the answer for pyramids of 8, 16 and 24 sides, as they stand and turned, and Newton's steps from there (up to 60
-//     contacts);
+//   answers for pyramids of 8 sides whose angles are drawn anew, up to 200 times, and Newton's steps from there (up to
+//     60 contacts, and the fewer draws the more there are);
 //   Gauss-Seidel with its relaxation, to options.limit, and Newton's steps from there.
 // The work of all is counted; if nothing solves it, the answer of the smallest residual is returned.
 ConeResult solve(const ConeProblem& problem, Method method = Method::combined,
