@@ -1,5 +1,6 @@
 #include "ch06_friction/boxed.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -13,7 +14,7 @@ namespace {
 constexpr int kBoxRounds = 50;
 constexpr double kSettled = 1e-12;
 
-// One LCP over the normals, and over those tangents whose bound is positive.
+// One LCP over the normals, and over those tangents that have a bound > 0 and something to do.
 class Boxes {
  public:
   explicit Boxes(const ConeProblem& problem) : problem_(problem) {}
@@ -31,7 +32,11 @@ class Boxes {
 Status Boxes::solve(const VecX& radius, VecX& r) {
   std::vector<Eigen::Index> rows;
   for (Eigen::Index i = 0; i < problem_.contacts(); ++i) {
-    for (Eigen::Index k = 0; k < (radius[i] > 0 ? 3 : 1); ++k) rows.push_back(3 * i + k);
+    rows.push_back(3 * i);
+    for (Eigen::Index row = 3 * i + 1; row < 3 * i + 3; ++row) {
+      const bool idle = problem_.b[row] == 0 && problem_.A.row(row).isZero(0);
+      if (radius[i] > 0 && !idle) rows.push_back(row);
+    }
   }
   const auto size = static_cast<Eigen::Index>(rows.size());
   const MatX A = problem_.A(rows, rows);
@@ -84,6 +89,11 @@ ConeResult solve_boxed(const ConeProblem& problem, const SolveOptions& options) 
       const double change = scale[i] * std::abs(r[3 * i] - before[3 * i]);
       settled = settled && change <= kSettled * problem.b.lpNorm<Eigen::Infinity>();
     }
+  }
+  // The bounds were those of the round before; these normals' own differ from them in the last digits.
+  for (Eigen::Index row = 0; row < r.size(); ++row) {
+    const double bound = problem.mu[row / 3] * r[row - row % 3];
+    if (row % 3 != 0) r[row] = std::clamp(r[row], -bound, bound);
   }
   judge(problem, r, options.tolerance, Status::limit, result);
   if (status != Status::solved) result.status = status;

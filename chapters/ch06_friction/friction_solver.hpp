@@ -35,6 +35,7 @@ struct SolveOptions {
   const VecX* start = nullptr;  // 3n, a guess of r (the last step's, say), projected onto the cones; null: 0
   int sides = 8;                // of a pyramid, even, >= 4
   bool turned = true;           // whether a pyramid's sides follow the slip
+  int draw = 0;  // where its sides begin: 0 at tangent 1; others, >= 0, at angles drawn by this number
 };
 
 // Solves the problem by the method. Guarantee: `solved` only if the result passed acceptable() and has the
@@ -43,11 +44,13 @@ struct SolveOptions {
 // std::invalid_argument for arguments that check_arguments() refuses, and a start of another size.
 //
 // `combined`, in this order, until one is solved:
-//   without any friction, chapter 3's method of Dantzig on the normals alone;
-//   Gauss-Seidel, until it is near or does not get nearer;
-//   Newton's method from there;
-//   the pyramid's answer, from r = 0, and Newton's method from there;
-//   Gauss-Seidel relaxed, to its limit, and Newton's method again.
+//   where no contact has friction, chapter 3's method of Dantzig on the normals alone;
+//   Gauss-Seidel's sweeps and, from where they are after 20, 50, 100, 200 and 400, Newton's steps (where sweeps go in
+//     circles, each is another start; Newton's only up to 300 contacts);
+//   answers for pyramids of 8 sides whose angles are drawn anew, up to 200 times, and Newton's steps from there (up to
+//     60 contacts, and the fewer draws the more there are);
+//   Gauss-Seidel with its relaxation, to options.limit, and Newton's steps from there.
+// The work of all is counted; if nothing solves it, the answer of the smallest residual is returned.
 ConeResult solve(const ConeProblem& problem, Method method = Method::combined,
                  const SolveOptions& options = {});
 

@@ -41,9 +41,11 @@ Pyramids::Pyramids(const ConeProblem& problem, int sides, const VecX& angle) {
   }
   M_ = pushes_.transpose() * problem.A * pushes_;
   q_ = pushes_.transpose() * problem.b;
+  const VecX scale = contact_scales(problem);
   for (Eigen::Index i = 0; i < n; ++i) {
-    // The unit of λ is ours to choose: with this one its row has entries as large as the others of its contact.
-    const double unit = std::sqrt(contact_scales(problem)[i]);
+    // The unit of λ is ours to choose: with this one its row has entries as large as the others of its contact. As a
+    // power of two it costs no digits.
+    const double unit = std::exp2(std::round(0.5 * std::log2(scale[i])));
     const Eigen::Index normal = (m + 2) * i, lambda = normal + m + 1;
     M_(lambda, normal) = unit * problem.mu[i];
     M_.block(lambda, normal + 1, 1, m).setConstant(-unit);
@@ -65,7 +67,11 @@ ConeResult solve_pyramid(const ConeProblem& problem, const SolveOptions& options
   ConeResult best;
   if (refused(problem, options, best)) return best;
   const int rounds = !options.turned ? 1 : options.limit > 0 ? options.limit : kTurns;
-  VecX angle = VecX::Zero(problem.contacts());
+  VecX angle(problem.contacts());
+  // Multiples of the golden ratio, less their whole part, are spread evenly and in no order.
+  for (Eigen::Index i = 0; i < angle.size(); ++i)
+    angle[i] = 2 * std::numbers::pi *
+               std::fmod(0.6180339887498949 * static_cast<double>(options.draw * (i + 1)), 1.0);
   int pivots = 0;
   for (int round = 0; round < rounds && best.status != Status::solved; ++round) {
     const Pyramids pyramids(problem, options.sides, angle);

@@ -11,6 +11,7 @@ namespace fc::friction {
 // Lemke's method finds a solution whatever the µ (Anitescu and Potra 1997). But it is one of the pyramid: friction
 // points along a side, off the slip by up to π/m, and is short by up to 1 - cos(π/m).
 //   sides: m. With four, d_0 is tangent 1: what sticks at 45° to it has but µ r_N/√2.
+//   draw: 0: d_0 is tangent 1; else every contact's sides are turned by an angle of its own, others for each number.
 //   turned: after each solve every sliding contact's pyramid is turned so that one side points against its slip; few
 //   rounds bring the answer near the cone's, though not always to it. False: one round.
 //   limit: rounds; 0 means 8. start is ignored.

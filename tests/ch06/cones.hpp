@@ -5,7 +5,9 @@
 #include <random>
 #include <vector>
 
+#include "ch03_impulse_lcp/delassus.hpp"
 #include "ch06_friction/cone_problem.hpp"
+#include "tests/ch03/bodies.hpp"
 
 namespace fc::friction {
 
@@ -38,6 +40,44 @@ inline OwnProblem random_problem(std::mt19937_64& random, Eigen::Index n, Eigen:
   OwnProblem p{J * inverse_mass.asDiagonal() * J.transpose(), J * v, VecX::Constant(n, mu)};
   p.A = 0.5 * (p.A + p.A.transpose()).eval();
   return p;
+}
+
+// The frictional problem of a heap: chapter 3's matrix of three directions a contact.
+inline OwnProblem heap_problem(const lcp::Heap& heap, double mu) {
+  std::vector<lcp::Contact> rows;
+  for (const lcp::Contact& contact : heap.contacts) {
+    const Vec3 t1 = contact.normal.unitOrthogonal();
+    for (const Vec3& direction : {contact.normal, t1, Vec3(contact.normal.cross(t1))}) {
+      rows.push_back(contact);
+      rows.back().normal = direction.normalized();
+      rows.back().restitution = 0;
+    }
+  }
+  const lcp::ImpactProblem problem = lcp::assemble(heap.bodies, rows);
+  return {problem.A, problem.b, VecX::Constant(static_cast<Eigen::Index>(heap.contacts.size()), mu)};
+}
+
+// How far (r, u) is from Signorini's and Coulomb's laws, as they are said in words; shares nothing with
+// cone_violation(). m/s. A speed beside a force counts, whichever is the smaller.
+inline double broken_law(const ConeProblem& p, const VecX& r, const VecX& u) {
+  double worst = 0;
+  for (Eigen::Index i = 0; i < p.contacts(); ++i) {
+    const double s = p.block(i).cwiseAbs().maxCoeff(), push = s * r[3 * i];
+    const Eigen::Vector2d friction = s * r.segment<2>(3 * i + 1), slip = u.segment<2>(3 * i + 1);
+    const double spare = p.mu[i] * push - friction.norm();
+    worst = std::max({worst, -u[3 * i], -push, -spare});  // no approach, no pull, in the cone
+    worst = std::max(worst, std::min(std::abs(u[3 * i]), std::abs(push)));  // pushes only where it touches
+    worst = std::max(worst, std::min(slip.norm(), spare));                  // slips only on the cone
+    const Eigen::Vector2d sum = friction.norm() * slip + slip.norm() * friction;  // against the slip
+    if (slip.norm() + friction.norm() > 0)
+      worst = std::max(worst, sum.norm() / (slip.norm() + friction.norm()));
+  }
+  return worst;
+}
+
+// max(max|b|, max |A||r|), what a residual is measured against.
+inline double size_of(const ConeProblem& p, const VecX& r) {
+  return std::max(p.b.lpNorm<Eigen::Infinity>(), (p.A.cwiseAbs() * r.cwiseAbs()).maxCoeff());
 }
 
 // Painlevé's rod: an end of a uniform rod of mass 1 and half-length 1 that slides on the floor, tan θ = 2. For a

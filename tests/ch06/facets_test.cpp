@@ -1,0 +1,55 @@
+// What flat sides do to friction: the numbers of a block that slides freely on a plane.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "ch06_friction/facet_study.hpp"
+
+namespace fc::friction {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+TEST(Facets, TheConeStopsWhereItShouldInEveryDirection) {
+  const FacetErrors errors = facet_errors({}, 16, 100);
+  EXPECT_LE(errors.direction, 1e-12);
+  EXPECT_NEAR(errors.shortest, 1, 1e-12);
+  EXPECT_NEAR(errors.longest, 1, 1e-12);
+}
+
+// The stopping point is as (cos², sin²) of the angle: worst 12.79° off at 23.5° from a tangent, and at 45° after 1/√2
+// of the way.
+TEST(Facets, ABoxTurnsASlideTowardsATangent) {
+  for (const double degrees : {10.0, 23.5, 45.0}) {
+    const double a = degrees * kDegree, c = std::cos(a), s = std::sin(a);
+    const Eigen::Vector2d stop = stopping_point({Method::boxed}, a, 2000);
+    EXPECT_NEAR((stop - Eigen::Vector2d(c * c, s * s)).norm(), 0, 2e-3) << degrees;
+  }
+  const FacetErrors errors = facet_errors({Method::boxed}, 181, 400);
+  EXPECT_NEAR(errors.direction / kDegree, 12.79, 0.02);
+  EXPECT_NEAR(errors.shortest, std::sqrt(0.5), 1e-3);
+}
+
+// Four sides with a corner on each tangent brake the larger component alone, until both are equal.
+TEST(Facets, APyramidOfFourTurnsItTheOtherWay) {
+  const FacetErrors errors = facet_errors({Method::pyramid, 4}, 91, 200);
+  EXPECT_NEAR(errors.direction / kDegree, 12.79, 0.05);
+  EXPECT_NEAR(errors.longest, std::sqrt(2.0), 2e-3);
+  // v = (1, 0.8): 38.66° is exact.
+  const double a = std::atan(0.8);
+  const Eigen::Vector2d box = stopping_point({Method::boxed}, a, 2000),
+                        flat = stopping_point({Method::pyramid, 4}, a, 500);
+  EXPECT_NEAR(std::atan2(box[1], box[0]) / kDegree, 32.62, 0.05);
+  EXPECT_NEAR(std::atan2(flat[1], flat[0]) / kDegree, 44.29, 0.1);
+}
+
+TEST(Facets, MoreSidesAreLessWrong) {
+  const double eight = facet_errors({Method::pyramid, 8}, 31, 100).direction;
+  const double sixteen = facet_errors({Method::pyramid, 16}, 31, 100).direction;
+  EXPECT_NEAR(eight / kDegree, 5.8, 0.2);
+  EXPECT_NEAR(sixteen / kDegree, 2.8, 0.2);
+}
+
+}  // namespace
+}  // namespace fc::friction
