@@ -1,0 +1,35 @@
+// Exercise 6.1: one contact with friction, exactly.
+#pragma once
+
+#include "common/types.hpp"
+
+namespace fc::exercises {
+
+// What a contact does with an impulse of one instant.
+enum class Kind { open, stick, slip };
+
+struct Answer {
+  Kind kind = Kind::open;
+  Vec3 r = Vec3::Zero();  // N s: along the normal, and along both tangents
+};
+
+// One contact that obeys Signorini and Coulomb. Vectors are (normal, tangent 1, tangent 2): three directions at right angles.
+//   A    1/kg, symmetric, positive semidefinite: an impulse r changes the velocity at the contact by A r. A direction of the
+//        tangent plane may be dead: nothing moves along it, whatever the impulse.
+//   q    m/s: the velocity without the impulse. A negative q_N closes in.
+//   mu   >= 0: the coefficient of friction.
+//
+// With the answer r the velocity is u = A r + q, and one of these is true.
+//   open    r = 0, and u_N >= 0.
+//   stick   u = 0, and |r_T| <= mu r_N. Along a dead direction: no velocity, and no impulse.
+//   slip    u_N = 0, |r_T| = mu r_N, and r_T = -s u_T with an s >= 0: friction is against the slip *after* the impulse.
+// Where several are true (Painlevé's rod), open goes before stick, and stick before slip. Of several slips it is the slowest;
+// but a pair of slips may be skipped if their values of α/(α + tr D̂) differ by less than 0.02 (α, D̂: see the statement).
+// Closing in where no impulse helps (A is zero) is open, too, with r = 0.
+//
+// Promised: a violation of these of at most 1e-12 of the velocities that are added up, (|A||r| + |q|)_max; also where
+// entries of A differ by a factor of 1e8, and for any mu. The same answer, whatever orthogonal tangents describe the problem.
+// Throws std::invalid_argument if mu < 0, or if any number is not finite.
+Answer solve_contact(const Mat3& A, const Vec3& q, double mu);
+
+}  // namespace fc::exercises
