@@ -164,6 +164,7 @@ double ContactSweeps::run(int most, double tolerance) {
   return residual();
 }
 
+// ANCHOR: held
 double ContactSweeps::run_held(std::span<const char> holds, int most, double tolerance) {
   run(most, tolerance, [&](int i, const Block& block, const Vec3& q) -> Vec3 {
     const double a = block.delassus(0, 0);
@@ -178,6 +179,7 @@ double ContactSweeps::run_held(std::span<const char> holds, int most, double tol
   });
   return 0;
 }
+// ANCHOR_END: held
 
 double ContactSweeps::run_discs(std::span<const double> normals, int most, double tolerance) {
   run(most, tolerance, [&](int i, const Block& block, const Vec3& q) -> Vec3 {

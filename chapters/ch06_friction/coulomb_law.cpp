@@ -149,6 +149,7 @@ IslandResult CoulombLaw::correct(const ContactSet& set, std::span<const double> 
   return result;
 }
 
+// ANCHOR: give_back
 void CoulombLaw::give_back(const ContactSet& set, std::span<const double> normals, std::span<Vec3> total) {
   if (!rubs(set)) return NormalLaw::give_back(set, normals, total);
   const std::vector<double> limits(normals.size(), 0.0);
@@ -161,6 +162,7 @@ void CoulombLaw::give_back(const ContactSet& set, std::span<const double> normal
     total[i] += impulse;
   }
 }
+// ANCHOR_END: give_back
 
 std::unique_ptr<resting::GaussSeidel> CoulombLaw::gauss_seidel() const {
   return std::make_unique<PatchedGaussSeidel>(world_);
@@ -168,6 +170,7 @@ std::unique_ptr<resting::GaussSeidel> CoulombLaw::gauss_seidel() const {
 
 // The slip of a contact changes evenly: from what it is now, over its mean, to as much on the other side. If it would turn back
 // on the way, it stops there; if the push stops it at once, half of the time is tried.
+// ANCHOR: holds_until
 double CoulombLaw::holds_until(const ContactSet& mean, std::span<const RigidBody> now,
                                std::span<const Vec3> impulses, double length) const {
   if (mean.contacts.size() > kFewSlips) return length;
@@ -186,5 +189,6 @@ double CoulombLaw::holds_until(const ContactSet& mean, std::span<const RigidBody
   }
   return until;
 }
+// ANCHOR_END: holds_until
 
 }  // namespace fc::friction

@@ -38,7 +38,9 @@ int run(const Scene& scene, const RunContext& context, Summary& summary) {
     return world::run_scene(scene, context, summary, world::step, true);
   }
   resting::RunOptions options;
+  // ANCHOR: law
   options.law = [](world::World& world) { return std::make_unique<friction::CoulombLaw>(world); };
+  // ANCHOR_END: law
   double work = 0;
   options.columns = [&work](const resting::RestReport& last) {
     world::MoreColumns more;

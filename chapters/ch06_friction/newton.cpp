@@ -20,6 +20,7 @@ struct Piece {
   Mat3 of_u = Mat3::Zero(), of_r = Mat3::Zero();
 };
 
+// ANCHOR: piece
 Piece piece(const Vec3& r, const Vec3& u, double mu, double s) {
   Piece p;
   const Vec3 x = r - u / s;
@@ -42,6 +43,7 @@ Piece piece(const Vec3& r, const Vec3& u, double mu, double s) {
   }
   return p;
 }
+// ANCHOR_END: piece
 
 // F at r, and J, its derivative with respect to s r: without a unit. Rows by the case of their contact.
 struct Linear {

@@ -18,6 +18,7 @@ Vec2 turned(const Vec2& v) {
 
 }  // namespace
 
+// ANCHOR: factor
 OneContact::OneContact(const Mat3& A, double mu)
     : mu_(mu), a_(A(0, 0)), c_(Vec2::Zero()), size_(A.cwiseAbs().maxCoeff()) {
   const Vec2 c = A.block<2, 1>(1, 0);
@@ -36,7 +37,9 @@ OneContact::OneContact(const Mat3& A, double mu)
   c_ = {axis_.dot(slope), turned(axis_).dot(slope)};
   one_root_ = mu_ * c_.norm() * delta_.sum() <= 2 * std::sqrt(delta_.prod());
 }
+// ANCHOR_END: factor
 
+// ANCHOR: solve
 Vec3 OneContact::solve(const Vec3& q) const {
   // Open.
   if (q[0] >= 0 || !(a_ > 0)) return Vec3::Zero();
@@ -68,5 +71,6 @@ Vec3 OneContact::solve(const Vec3& q) const {
   const Vec2 r = tangent[0] * axis_ + tangent[1] * turned(axis_);
   return {normal, r[0], r[1]};
 }
+// ANCHOR_END: solve
 
 }  // namespace fc::friction

@@ -29,6 +29,7 @@ class Pyramids {
   VecX q_;
 };
 
+// ANCHOR: pyramid
 Pyramids::Pyramids(const ConeProblem& problem, int sides, const VecX& angle) {
   const Eigen::Index n = problem.contacts(), m = sides, rows = (m + 2) * n;
   pushes_ = MatX::Zero(3 * n, rows);
@@ -52,6 +53,7 @@ Pyramids::Pyramids(const ConeProblem& problem, int sides, const VecX& angle) {
     M_.block(normal + 1, lambda, m, 1).setConstant(unit);
   }
 }
+// ANCHOR_END: pyramid
 
 // Turns the pyramids of sliding contacts so that a side points against the slip.
 void turn(const ConeProblem& problem, const VecX& u, VecX& angle) {

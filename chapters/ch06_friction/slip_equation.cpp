@@ -70,6 +70,7 @@ double SlipEquation::beyond_all_roots() const {
 
 // f(low) > 0 >= f(high). Newton's method on µ r_N/|r_T| - 1, which is nearly a straight line in α (Moré and Sorensen
 // 1983, for the radius of a trust region), and halves the bracket where it leaves it.
+// ANCHOR: root
 double SlipEquation::root_between(double low, double high) const {
   double alpha = high;
   for (int step = 0; step < kRootSteps; ++step) {
@@ -88,6 +89,7 @@ double SlipEquation::root_between(double low, double high) const {
   }
   return alpha;
 }
+// ANCHOR_END: root
 
 // Where f may have several roots, it is searched piece by piece. With t = α/(α + τ), and L_i = δ_i (1-t) + τ t, f = 0
 // is, times its conjugate and the denominators, a quartic:

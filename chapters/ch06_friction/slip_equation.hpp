@@ -9,6 +9,7 @@ namespace fc::friction {
 struct SlipEquation {
   using Vec2 = Eigen::Vector2d;
 
+  // ANCHOR: slip
   double mu = 0;    // > 0
   double free = 0;  // N s, > 0: r_N if there were no friction, -β/a
   Vec2 c, d;        // c/a, and d̂ in m/s, not both 0
@@ -17,6 +18,7 @@ struct SlipEquation {
   // N s, α > 0 in 1/kg, or 0 where no direction with a d̂ is dead.
   Vec2 tangent(double alpha) const { return -d.cwiseQuotient((delta.array() + alpha).matrix()); }
   double normal(const Vec2& tangent) const { return free - c.dot(tangent); }
+  // ANCHOR_END: slip
   double excess(double alpha) const;  // f
 
   // The least root, f(0) > 0 being given. `one_root`: it is known that there are no others.
