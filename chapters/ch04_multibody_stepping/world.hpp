@@ -180,6 +180,7 @@ struct ImpactRecord {
   lcp::Contact contact;
   lcp::Impulse impulse;
   ContactKind kind = ContactKind::impact;
+  int patch = -1;  // which contacts of its two bodies share what acts along the surfaces; -1: it has its own
   // Along the surfaces: an impulse is 0 there unless a later chapter's law acts.
   Vec3 tangential = Vec3::Zero();                              // N s, on B
   Vec3 slip_before = Vec3::Zero(), slip_after = Vec3::Zero();  // m/s, of B's point as seen from A's

@@ -174,6 +174,7 @@ void GaussSeidel::drop(int row) {
   states_[at(r.b)].velocity -= r.impulse * lines_[at(row)].b;
   r.impulse = 0;
   r.approach_limit = kNever;
+  row_dropped(row);
 }
 
 double GaussSeidel::start_speed(int row) const {

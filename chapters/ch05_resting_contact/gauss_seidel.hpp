@@ -47,6 +47,8 @@ class GaussSeidel {
   }  // N s
   // N s, world, on B, all that acts there.
   virtual Vec3 whole_impulse(int row) const { return impulse(row) * normal(row); }
+  // Those of the same number share what acts along the surfaces; -1: it has its own.
+  virtual int patch_of(int /*row*/) const { return -1; }
   const Vec3& normal(int row) const { return arms_[at(row)].normal; }
   double start_speed(int row) const;  // J v_0, m/s
   double path_speed(int row) const;   // J y
@@ -81,6 +83,7 @@ class GaussSeidel {
   // size (J); and their momenta, N s and N m s, added to those of each body.
   virtual void sweep_more(bool /*velocities*/, bool /*paths*/) {}
   virtual void apply_more_guesses() {}
+  virtual void row_dropped(int /*row*/) {}
   virtual void drop_all() {}
   virtual void add_gains(double& /*sum*/, double& /*size*/) const {}
   virtual void add_momenta(bool /*paths*/, std::vector<Twist>& /*momenta*/) const {}

@@ -344,6 +344,7 @@ Planned PilePlanner::take(const world::World& world) {
     reported.before = lcp::relative_velocity(free, reported.contact);
     reported.after = lcp::relative_velocity(bounced, reported.contact);
     reported.key = point_of(row).key;
+    reported.patch = gauss_seidel_->patch_of(i);
     reported.arrives = row.arrives;
     if (row.arrives) {
       const Path &a = courses_.paths[at(pair.a)], &b = courses_.paths[at(pair.b)];

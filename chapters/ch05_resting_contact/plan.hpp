@@ -14,6 +14,7 @@ struct PlannedRow {
   // m/s, of B's point as seen from A's, without and with the plan's impulses.
   Vec3 before = Vec3::Zero(), after = Vec3::Zero();
   std::uint64_t key = 0;  // of its point
+  int patch = -1;         // see world::ImpactRecord
   bool arrives = false;   // it was not in contact at the start: what it does, it does at the plan's end
 };
 

@@ -232,10 +232,12 @@ void Resting::end_plan(Instant& instant, int number) {
   for (const PlannedRow& row : plan.what.rows) {
     const double end = reported_time(instant.now, dt_);
     const Vec3 acted = whole ? row.impulse : Vec3(share * row.early);
-    if (acted.dot(row.contact.normal) > 0)
-      records_.add(record_of(row.arrives ? end : plan.start, row.contact, row.before, row.after, acted,
-                             world::ContactKind::rest),
-                   row.key, false);
+    if (acted.dot(row.contact.normal) > 0) {
+      world::ImpactRecord record = record_of(row.arrives ? end : plan.start, row.contact, row.before,
+                                             row.after, acted, world::ContactKind::rest);
+      record.patch = row.patch;
+      records_.add(record, row.key, false);
+    }
     if (!whole || !(row.back.dot(row.contact.normal) > 0)) continue;
     ++instant.report.impacts;
     instant.listeners.impact(

@@ -44,7 +44,6 @@ void PatchedGaussSeidel::end_pair(int first, int world_a, int world_b, std::span
     arm -= n.dot(arm) * n;
     twist += n.dot(arm.cross(guesses[at(row - first)]));
     members_.push_back({row, 1 / of_row(row).root, static_cast<float>(arm.norm()), arm});
-    patch_of_[at(row)] = static_cast<int>(patches_.size());
   }
 
   patch.tangents[0] = (std::abs(n.x()) < 0.6 ? Vec3::UnitX() : Vec3::UnitY()).cross(n).normalized();
@@ -95,6 +94,7 @@ void PatchedGaussSeidel::end_pair(int first, int world_a, int world_b, std::span
     patch.impulse[k] = static_cast<float>(guess * scale);
     patch.correction[k] = 0.5F * patch.impulse[k];
   }
+  for (int row = first; row < rows(); ++row) patch_of_[at(row)] = static_cast<int>(patches_.size());
   patches_.push_back(patch);
 }
 
@@ -149,6 +149,11 @@ void PatchedGaussSeidel::apply_more_guesses() {
   }
 }
 
+// Its patch has less to carry.
+void PatchedGaussSeidel::row_dropped(int row) {
+  if (const int patch = patch_of(row); patch >= 0) sweep<true>(patches_[at(patch)]);
+}
+
 void PatchedGaussSeidel::drop_all() {
   for (Patch& patch : patches_) {
     std::fill(std::begin(patch.impulse), std::end(patch.impulse), 0.0F);
@@ -188,7 +193,7 @@ void PatchedGaussSeidel::add_momenta(bool paths, std::vector<Twist>& momenta) co
 
 Vec3 PatchedGaussSeidel::whole_impulse(int row) const {
   const Vec3 alone = GaussSeidel::whole_impulse(row);
-  if (at(row) >= patch_of_.size() || patch_of_[at(row)] < 0) return alone;
+  if (patch_of(row) < 0) return alone;
   const Patch& patch = patches_[at(patch_of_[at(row)])];
   double load = 0, spread = 0;
   Vec3 lever = Vec3::Zero(), arm = Vec3::Zero();

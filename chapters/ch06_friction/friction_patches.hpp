@@ -20,6 +20,9 @@ class PatchedGaussSeidel : public resting::GaussSeidel {
   void end_pair(int first, int world_a, int world_b, std::span<const Vec3> guesses) override;
   // The row's share of its patch's: r_T by the normal impulses, and of the twist by these and the arms.
   Vec3 whole_impulse(int row) const override;
+  int patch_of(int row) const override {
+    return resting::at(row) < patch_of_.size() ? patch_of_[resting::at(row)] : -1;
+  }
 
  private:
   struct Patch {
@@ -42,6 +45,7 @@ class PatchedGaussSeidel : public resting::GaussSeidel {
 
   void sweep_more(bool velocities, bool paths) override;
   void apply_more_guesses() override;
+  void row_dropped(int row) override;
   void drop_all() override;
   void add_gains(double& sum, double& size) const override;
   void add_momenta(bool paths, std::vector<Twist>& momenta) const override;

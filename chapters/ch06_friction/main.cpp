@@ -15,6 +15,16 @@ Scene with_envelope(const Scene& scene) {
   return result;
 }
 
+// Throws InputError for what has no effect beside friction.
+void refuse_idle_keys(const Scene& scene) {
+  for (const char* key : {"solver.method", "solver.limit", "solver.tolerance"})
+    if (const auto mark = scene.mark(key))
+      throw InputError(
+          *mark, fmt::format("'{}' has no effect on contacts with friction, which have solvers of their "
+                             "own; remove it, or the friction",
+                             key));
+}
+
 std::vector<Effect> explain(const Scene& scene) {
   if (!friction::asks_for_friction(scene))
     return scene.envelope ? resting::explain(scene) : world::explain(scene);
@@ -37,6 +47,7 @@ int run(const Scene& scene, const RunContext& context, Summary& summary) {
     if (scene.envelope) return resting::run_scene(scene, context, summary);
     return world::run_scene(scene, context, summary, world::step, true);
   }
+  refuse_idle_keys(scene);
   resting::RunOptions options;
   // ANCHOR: law
   options.law = [](world::World& world) { return std::make_unique<friction::CoulombLaw>(world); };
@@ -53,8 +64,12 @@ int run(const Scene& scene, const RunContext& context, Summary& summary) {
                             {"slip_before", "m/s"}, {"slip_after", "m/s"}, {"patch", ""}};
     more.contact_cells = [](const world::ImpactRecord& record) {
       const Vec3& t = record.tangential;
-      return std::vector<Cell>{
-          t.x(), t.y(), t.z(), record.slip_before.norm(), record.slip_after.norm(), std::int64_t{-1}};
+      return std::vector<Cell>{t.x(),
+                               t.y(),
+                               t.z(),
+                               record.slip_before.norm(),
+                               record.slip_after.norm(),
+                               std::int64_t{record.patch}};
     };
     return more;
   };
@@ -64,6 +79,7 @@ int run(const Scene& scene, const RunContext& context, Summary& summary) {
 }
 
 void check(const Scene& scene) {
+  if (friction::asks_for_friction(scene)) refuse_idle_keys(scene);
   if (scene.envelope || friction::asks_for_friction(scene))
     resting::check(with_envelope(scene));
   else

@@ -16,9 +16,9 @@ namespace fs = std::filesystem;
 using fc_test::Trial;
 
 const std::vector<std::string> programs = {"ch01_convex_advancement", "ch02_hull_hierarchy",
-                                           "ch03_impulse_lcp", "ch04_multibody_stepping",
-                                           "ch05_resting_contact"};
-constexpr int chapters = 5;
+                                           "ch03_impulse_lcp",        "ch04_multibody_stepping",
+                                           "ch05_resting_contact",    "ch06_friction"};
+constexpr int chapters = 6;
 
 std::string in_ticks(const std::string& text) {
   return "'" + text + "'";

@@ -23,6 +23,12 @@ const std::string lies =
     "shapes:\n  floor: {box: {size: [9, 9, 1]}}\n  ball: {sphere: {radius: 0.5}, mass: 1}\n"
     "bodies:\n  - {shape: floor, static: true}\n  - {shape: ball, position: [0, 0, 1.0], velocity: [0.005, 0, 0]}\n";
 
+// One that slides.
+const std::string slides =
+    "step: {dt: 0.01, duration: 0.5}\ngravity: [0, 0, -10]\n"
+    "shapes:\n  floor: {box: {size: [9, 9, 1]}, friction: 0.5}\n  box: {box: {size: [1, 1, 0.4]}, mass: 1, friction: 0.5}\n"
+    "bodies:\n  - {shape: floor, static: true}\n  - {shape: box, position: [0, 0, 0.701], velocity: [2, 0, 0]}\n";
+
 const std::string motions_header =
     "a_px,a_py,a_pz,a_qw,a_qx,a_qy,a_qz,a_vx,a_vy,a_vz,a_wx,a_wy,a_wz,"
     "b_px,b_py,b_pz,b_qw,b_qx,b_qy,b_qz,b_vx,b_vy,b_vz,b_wx,b_wy,b_wz\n";
@@ -66,6 +72,10 @@ std::map<std::string, Trial> common_trials() {
       {"sleep", {"sleep", "", "{after: 0.1}", {}, lies}},
       {"sleep.after", {"sleep.after", "0.1", "0.3", {}, lies}},
       {"sleep.speed", {"sleep.speed", "0.01", "0.001", {"sleep.after=0.1"}, lies}},
+      {"friction", {"friction", "0.2", "0.4", {}, lands}},
+      {"shapes.<name>.friction", {"shapes.box.friction", "0.2", "0.4", {}, slides}},
+      {"pairs[].friction",
+       {"pairs.0.friction", "0.1", "0.2", {"pairs=[{a: floor, b: box, friction: 0.9}]"}, slides}},
       {"envelope", {"envelope", "1e-3", "2e-3", {}, lands}},
       {"restitution", {"restitution", "0.2", "0.8"}},
       {"ccd", {"ccd", "{tolerance: 1e-3}", "{tolerance: 1e-6}"}},
@@ -201,7 +211,7 @@ std::optional<Trial> trial_of(const std::string& path, int chapter) {
           "lcp: {A: [[4, 1, -2, 1], [1, 4, 1, -2], [-2, 1, 4, 1], [1, -2, 1, 4]], b: [-1, -2, -1, -1]}\n";
       return trial;
     }
-  if (path.starts_with("solver") && chapter == 5) {
+  if (path.starts_with("solver") && chapter >= 5) {
     Trial trial = trials.at(path);
     trial.sets.emplace_back("envelope=1e-3");
     return trial;
