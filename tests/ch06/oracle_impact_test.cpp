@@ -127,45 +127,41 @@ TEST(Impact, R25PainleveSlides) {
 }
 
 // R24: what an instant takes is half of r'Ar and what friction takes, µ r_N |u_T|. Boxes thrown flat, on an edge, on a corner, one
-// on another.
+// on another; the frame is so short that nothing else happens in it but a part of some 1e-8 of it.
 TEST(Impact, R24DissipationIdentity) {
   std::mt19937 source(7);
   const auto random = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(source);
   };
-  double worst = 0;
+  double worst = 0, aside = 0;
   int slides = 0, sticks = 0;
   for (int trial = 0; trial < 300; ++trial) {
     const double mu = random(0, 1.5);
-    const int count = 1 + trial % 3;
     std::string bodies;
-    for (int i = 0; i < count; ++i)
+    for (int i = 0; i < 1 + trial % 3; ++i)
       bodies += "  - {shape: box, position: " + list({0.1 * i, 0, 0.2 + 0.5 * kH + i * (0.4 + 0.5 * kH)}) +
                 ", velocity: " + list({random(-1, 1), random(-1, 1), random(-1, -0.1)}) +
                 ", spin: " + list({random(-1, 1), random(-1, 1), random(-1, 1)}) + "}\n";
-    Rubbing sim(rough(mu, kH, Vec3::Zero()) + "  box: {box: {size: [1, 0.7, 0.4]}, density: 1000}\n" +
-                    on_floor + bodies,
-                1e-7);
+    Rubbing sim(
+        rough(mu, kH, Vec3::Zero()) + "  box: {box: {size: [1, 0.7, 0.4]}, mass: 1}\n" + on_floor + bodies,
+        1e-7);
     const double before = sim.kinetic();
     double predicted = 0;
     sim.on_impact = [&](const fc::world::ImpactRecord& r) {
-      const double half = r.impulse.impulse * (r.impulse.v_after - r.impulse.v_before) +
-                          r.tangential.dot(r.slip_after - r.slip_before);
-      predicted += 0.5 * half + mu * r.impulse.impulse * r.slip_after.norm();
-      EXPECT_LE((r.tangential.norm() * r.slip_after + r.slip_after.norm() * r.tangential).norm(),
-                1e-7 * r.impulse.impulse)
-          << "against the slip";
-      if (r.slip_after.norm() > 1e-9)
-        ++slides;
-      else
-        ++sticks;
+      const double taken = r.impulse.impulse * (r.impulse.v_after - r.impulse.v_before) +
+                           r.tangential.dot(r.slip_after - r.slip_before);
+      predicted += 0.5 * taken + mu * r.impulse.impulse * r.slip_after.norm();
+      aside =
+          std::max(aside, (r.tangential.norm() * r.slip_after + r.slip_after.norm() * r.tangential).norm());
+      ++(r.slip_after.norm() > 1e-6 ? slides : sticks);
     };
     sim.step();
     worst = std::max(worst, std::abs(before - sim.kinetic() - predicted) / before);
     expect_laws(sim, "thrown");
   }
-  tell("R24: {:.2g} of the energy; {} slide, {} stick", worst, slides, sticks);
-  EXPECT_LE(worst, 1e-10) << "of the energy";
+  tell("R24: {:.2g} of the energy, {:.2g} J aside; {} slide, {} stick", worst, aside, slides, sticks);
+  EXPECT_LE(worst, 1e-7) << "of the energy";
+  EXPECT_LE(aside, 1e-6) << "J: friction is against the slip";
   EXPECT_GT(slides, 100);
   EXPECT_GT(sticks, 50);
 }

