@@ -310,8 +310,8 @@ def gallery(runs: Path) -> plt.Figure:
         body(arch, outline(stone, last("arch", k)), "#E9E2D6")
     bare(pencils, "Three pencils, µ of 0, 0.2 and 0.8, as they fall")
     frames = range(0, 481, 24)
+    pencils.plot([-0.6, 3.8], [0, 0], color=DARK, lw=1.3)
     for number, colour, shift in ((1, GREY, 0.0), (2, BLUE, 1.35), (3, ORANGE, 2.7)):
-        pencils.plot([shift - 0.55, shift + 1.0], [0, 0], color=DARK, lw=1.3)
         poses = Table(runs / "pencil/poses.csv")
         mine = poses.vectors("px", "pz", "qw", "qy")[poses["body"] == number]
         for frame in frames:
