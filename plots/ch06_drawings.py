@@ -174,6 +174,37 @@ def slip_root(_: Path) -> plt.Figure:
     return figure
 
 
+def rod(_: Path) -> plt.Figure:
+    figure, (scene, push) = plt.subplots(1, 2, figsize=(9.2, 3.4), width_ratios=(1, 1.2))
+    bare(scene, "A rod slides on its lower end")
+    angle = np.arctan(2)
+    along = np.array([np.cos(angle), np.sin(angle)])
+    scene.add_patch(plt.Rectangle((-1.2, -0.25), 3.4, 0.25, fc="#D8D8D8", ec="none"))
+    scene.plot([-1.2, 2.2], [0, 0], color=DARK, lw=1.3)
+    body(scene, box(along, (2, 0.07), angle))
+    scene.plot(*along, "o", color=DARK, ms=4)
+    arrow(scene, (-0.15, -0.12), (-0.8, -0.12), GREY)
+    note(scene, (-0.5, 0.12), "its slip", GREY)
+    arrow(scene, (0, 0), (0, 0.62), BLUE, 2)
+    note(scene, (-0.1, 0.66), "normal", BLUE, ha="right")
+    arrow(scene, (0, 0), (0.85, 0), ORANGE, 2)
+    note(scene, (0.6, 0.16), "friction", ORANGE, ha="left")
+    scene.add_patch(Arc(along, 1.1, 1.1, theta1=100, theta2=200, color=RED, lw=1.8))
+    tip = along + 0.55 * np.array([np.cos(np.radians(200)), np.sin(np.radians(200))])
+    arrow(scene, tip + [-0.012, 0.05], tip + [0.03, -0.09], RED, 1.8)
+    note(scene, (-0.35, 1.25), "friction turns it\nthis way: the end\ngoes down", RED, ha="right", fontsize=8.5)
+    scene.set(xlim=(-1.9, 2.2), ylim=(-0.3, 2.0))
+    mu = np.linspace(0, 2.5, 100)
+    push.axhline(0, color=DARK, lw=1)
+    push.plot(mu, 1.6 - 1.2 * mu, color=BLUE)
+    push.plot(4 / 3, 0, "o", color=ORANGE, ms=7)
+    note(push, (1.38, 0.16), "µ = 4/3", ORANGE, ha="left")
+    note(push, (0.62, 0.33), "a push lifts the end", GREEN)
+    note(push, (1.05, -0.95), "a push, with its friction,\npulls the end down", RED)
+    push.set(title="What 1 N s of normal impulse does to the end [m/s]", xlabel="µ, while it slides", xlim=(0, 2.5), ylim=(-1.6, 1.8))
+    return figure
+
+
 def stages(_: Path) -> plt.Figure:
     """The rod of the text: A, u before, compression r1, expansion by discs, velocities."""
     A = np.array([[2.5, -1.5], [-1.5, 2.5]])
@@ -330,7 +361,7 @@ def gallery(runs: Path) -> plt.Figure:
     return figure
 
 
-DRAWINGS = {f.__name__: f for f in (cone, stick_slip, isotropy, slip_root, stages, stop, patch, gallery)}
+DRAWINGS = {f.__name__: f for f in (cone, stick_slip, isotropy, slip_root, rod, stages, stop, patch, gallery)}
 
 
 def main() -> None:
