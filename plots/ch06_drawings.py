@@ -1,6 +1,6 @@
-"""Chapter 6's drawings. Two are of runs (`slide`, `stop`), the others from the formulas of the text.
+"""Chapter 6's drawings. Some are of runs, the others from the formulas of the text.
 
-Reads RUN_DIR/slide and stop: runs of the scene slide.yaml, as the text makes them. Writes one picture for each name into the folder --out.
+Reads RUN_DIR/slide, stop, card_house, arch, pencil and billiards: runs of the chapter's scenes, as its text makes them. Writes one picture for each name into the folder --out.
 """
 
 import drawing_python  # noqa: F401  first: it finds a Python that can draw
@@ -174,6 +174,37 @@ def slip_root(_: Path) -> plt.Figure:
     return figure
 
 
+def rod(_: Path) -> plt.Figure:
+    figure, (scene, push) = plt.subplots(1, 2, figsize=(9.2, 3.4), width_ratios=(1, 1.2))
+    bare(scene, "A rod slides on its lower end")
+    angle = np.arctan(2)
+    along = np.array([np.cos(angle), np.sin(angle)])
+    scene.add_patch(plt.Rectangle((-1.2, -0.25), 3.4, 0.25, fc="#D8D8D8", ec="none"))
+    scene.plot([-1.2, 2.2], [0, 0], color=DARK, lw=1.3)
+    body(scene, box(along, (2, 0.07), angle))
+    scene.plot(*along, "o", color=DARK, ms=4)
+    arrow(scene, (-0.15, -0.12), (-0.8, -0.12), GREY)
+    note(scene, (-0.5, 0.12), "its slip", GREY)
+    arrow(scene, (0, 0), (0, 0.62), BLUE, 2)
+    note(scene, (-0.1, 0.66), "normal", BLUE, ha="right")
+    arrow(scene, (0, 0), (0.85, 0), ORANGE, 2)
+    note(scene, (0.6, 0.16), "friction", ORANGE, ha="left")
+    scene.add_patch(Arc(along, 1.1, 1.1, theta1=100, theta2=200, color=RED, lw=1.8))
+    tip = along + 0.55 * np.array([np.cos(np.radians(200)), np.sin(np.radians(200))])
+    arrow(scene, tip + [-0.012, 0.05], tip + [0.03, -0.09], RED, 1.8)
+    note(scene, (-0.35, 1.25), "friction turns it\nthis way: the end\ngoes down", RED, ha="right", fontsize=8.5)
+    scene.set(xlim=(-1.9, 2.2), ylim=(-0.3, 2.0))
+    mu = np.linspace(0, 2.5, 100)
+    push.axhline(0, color=DARK, lw=1)
+    push.plot(mu, 1.6 - 1.2 * mu, color=BLUE)
+    push.plot(4 / 3, 0, "o", color=ORANGE, ms=7)
+    note(push, (1.38, 0.16), "µ = 4/3", ORANGE, ha="left")
+    note(push, (0.62, 0.33), "a push lifts the end", GREEN)
+    note(push, (1.05, -0.95), "a push, with its friction,\npulls the end down", RED)
+    push.set(title="What 1 N s of normal impulse does to the end [m/s]", xlabel="µ, while it slides", xlim=(0, 2.5), ylim=(-1.6, 1.8))
+    return figure
+
+
 def stages(_: Path) -> plt.Figure:
     """The rod of the text: A, u before, compression r1, expansion by discs, velocities."""
     A = np.array([[2.5, -1.5], [-1.5, 2.5]])
@@ -282,7 +313,55 @@ def patch(_: Path) -> plt.Figure:
     return figure
 
 
-DRAWINGS = {f.__name__: f for f in (cone, stick_slip, isotropy, slip_root, stages, stop, patch)}
+def outline(points: np.ndarray, pose: np.ndarray) -> np.ndarray:
+    """Points (x, z) of a body that turns about y alone, at a pose (px, pz, qw, qy)."""
+    angle = 2 * np.arctan2(pose[3], pose[2])
+    c, s = np.cos(angle), np.sin(angle)
+    return pose[:2] + points @ np.array([[c, -s], [s, c]])
+
+
+def gallery(runs: Path) -> plt.Figure:
+    figure, panels = plt.subplots(2, 2, figsize=(9.2, 5.6), width_ratios=(1, 1.25))
+    (cards, arch), (pencils, table) = panels
+
+    def last(name: str, body_number: int, frame: int = -1) -> np.ndarray:
+        poses = Table(runs / name / "poses.csv")
+        return poses.vectors("px", "pz", "qw", "qy")[poses["body"] == body_number][frame]
+
+    bare(cards, "A house of cards after 3 s")
+    cards.plot([-1.4, 1.4], [0, 0], color=DARK, lw=1.3)
+    for k in range(1, 8):
+        half = 0.75 if k == 5 else 0.5
+        body(cards, outline(np.array([[-half, -0.01], [half, -0.01], [half, 0.01], [-half, 0.01]]), last("card_house", k)), BLUE, BLUE, lw=0.8)
+    bare(arch, "An arch of thirteen stones after 1 s")
+    arch.plot([-6.2, 6.2], [0, 0], color=DARK, lw=1.3)
+    half = 0.5 * np.pi / 13
+    stone = np.array([[r * np.sin(s * half), r * np.cos(half) - 5] for s, r in ((-1, 4.5), (1, 4.5), (1, 5.5), (-1, 5.5))])
+    for k in range(1, 14):
+        body(arch, outline(stone, last("arch", k)), "#E9E2D6")
+    bare(pencils, "Three pencils, µ of 0, 0.2 and 0.8, as they fall")
+    frames = range(0, 481, 24)
+    pencils.plot([-0.6, 3.8], [0, 0], color=DARK, lw=1.3)
+    for number, colour, shift in ((1, GREY, 0.0), (2, BLUE, 1.35), (3, ORANGE, 2.7)):
+        poses = Table(runs / "pencil/poses.csv")
+        mine = poses.vectors("px", "pz", "qw", "qy")[poses["body"] == number]
+        for frame in frames:
+            points = outline(np.array([[0, -0.5], [0, 0.5]]), mine[frame])
+            pencils.plot(points[:, 0] + shift, points[:, 1], color=colour, lw=1.1)
+            pencils.plot(points[0, 0] + shift, points[0, 1], "o", color=colour, ms=2.5)
+    pencils.set_ylim(-0.15, 1.1)
+    bare(table, "Four billiard balls from above, 1.1 s")
+    poses = Table(runs / "billiards/poses.csv")
+    for number, colour, text in ((1, GREY, "no spin"), (2, RED, "draw"), (3, BLUE, "massé"), (4, GREEN, "massé and draw")):
+        places = poses.vectors("px", "py")[poses["body"] == number]
+        table.plot(*places.T, color=colour, lw=1.4)
+        table.plot(*places[::12].T, "o", color=colour, ms=3.5)
+        note(table, places[0] + [-0.04, 0], text, colour, ha="right")
+    table.set_xlim(-0.85, 1.0)
+    return figure
+
+
+DRAWINGS = {f.__name__: f for f in (cone, stick_slip, isotropy, slip_root, rod, stages, stop, patch, gallery)}
 
 
 def main() -> None:

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the scenes of this folder whose numbers come from geometry: arch.yaml, card_house.yaml, slide.yaml, slope.yaml,
+"""Writes the scenes of this folder whose numbers come from geometry: arch.yaml, arch_25.yaml, card_house.yaml, slide.yaml, slope.yaml,
 mixed_slope.yaml.
 
     python3 chapters/ch06_friction/scenes/make_scenes.py
@@ -20,30 +20,37 @@ def write(name: str, text: str) -> None:
     (HERE / f"{name}.yaml").write_text(text, encoding="utf-8")
 
 
-def arch(stones: int = 25, radius: float = 5, thick: float = 0.75, deep: float = 1, margin: float = 1e-3) -> None:
-    """The joints are open by the rest gap, half of the margin: nothing has to be put right at the start."""
+def arch(name: str, stones: int, thick: float, least: float, radius: float = 5, deep: float = 1, margin: float = 1e-3, smaller: float = 0.002) -> None:
+    """The joints are open by the rest gap, half of the margin: nothing has to be put right at the start. Every second stone is a
+    little smaller all round, so that a joint has four points, and not the eight of two equal squares."""
     half, inset = 0.5 * math.pi / stones, 0.25 * margin
-    corners = []
-    for side in (-1, 1):
-        for r in (radius - 0.5 * thick, radius + 0.5 * thick):
-            # The joint's plane goes through the arch's axis; the stone's face lies a quarter of the margin beside it.
-            x = (r * math.sin(half) - inset / math.cos(half)) * side
-            z = r * math.cos(half) - radius
-            corners += [vector(x, -0.5 * deep, z), vector(x, 0.5 * deep, z)]
+
+    def corners(less: float) -> str:
+        points = []
+        for side in (-1, 1):
+            for r in (radius - 0.5 * thick + less, radius + 0.5 * thick - less):
+                # The joint's plane goes through the arch's axis; the stone's face lies a quarter of the margin beside it.
+                x = (r * math.sin(half) - inset / math.cos(half)) * side
+                z = r * math.cos(half) - radius
+                points += [vector(x, less - 0.5 * deep, z), vector(x, 0.5 * deep - less, z)]
+        return ", ".join(points)
+
     bodies = []
     for k in range(stones):
         angle = -0.5 * math.pi + (2 * k + 1) * half  # from the vertical
         place = vector(radius * math.sin(angle), 0, radius * math.cos(angle))
-        bodies.append(f"  - {{shape: stone, position: {place}, rotation: {{axis: [0, 1, 0], degrees: {math.degrees(angle):.9g}}}}}")
-    write("arch", f"""# An arch of {stones} stones without mortar: a semicircle, {thick / radius:g} of its radius thick. Friction between the stones must be at
-# least 0.350 (closed form by linear programming; see the text); here it is 0.5. The joints are open by half of the margin.
-name: arch
-step: {FRAME % 3}
+        shape = "smaller" if k % 2 else "stone"
+        bodies.append(f"  - {{shape: {shape}, position: {place}, rotation: {{axis: [0, 1, 0], degrees: {math.degrees(angle):.9g}}}}}")
+    write(name, f"""# An arch of {stones} stones without mortar: a semicircle, {thick / radius:g} of its radius thick. It needs µ >= {least:.3f} (by linear programming, for forces
+# at the joints' inner and outer edges); here µ is 0.5. The joints are open by half of the margin, and every second stone is smaller by 2 mm.
+name: {name}
+step: {FRAME % 1}
 gravity: [0, 0, -9.81]
 envelope: {margin:g}
 friction: 0.5
 shapes:
-  stone: {{hull: {{points: [{", ".join(corners)}]}}, density: 2400}}
+  stone: {{hull: {{points: [{corners(0)}]}}, density: 2400}}
+  smaller: {{hull: {{points: [{corners(smaller)}]}}, density: 2400}}
   floor: {{box: {{size: [16, 4, 1]}}}}
 bodies:
   - {{shape: floor, static: true, position: [0, 0, {-0.5 - inset:g}]}}
@@ -160,7 +167,8 @@ bodies:
 
 
 if __name__ == "__main__":
-    arch()
+    arch("arch", 13, 1.0, 0.306)
+    arch("arch_25", 25, 0.75, 0.350)
     card_house()
     slide()
     slope()
