@@ -20,7 +20,9 @@ class ContactLaw {
 
   // Finds impulses (n; N s, world, on B) that the law allows, after which contact i closes in with at most limits_i (m/s;
   // negative: it must part), and changes the bodies' velocities. Impulses come in as guesses. Unless solved, nothing changes.
-  virtual IslandResult push(const ContactSet& set, std::span<const double> limits, std::span<Vec3> impulses,
+  // slips: n, m/s, world, or none: what the velocity along the surfaces is more over a plan's path, by turning, than at its start.
+  virtual IslandResult push(const ContactSet& set, std::span<const double> limits,
+                            std::span<const Vec3> slips, std::span<Vec3> impulses,
                             const IslandOptions& options) = 0;
   // The same for velocities of paths, which put gaps right, after push() for the same contacts. The n impulses are along the
   // normals, >= 0.
@@ -41,8 +43,8 @@ class ContactLaw {
 // Contacts that push along their normals alone.
 class NormalLaw : public ContactLaw {
  public:
-  IslandResult push(const ContactSet& set, std::span<const double> limits, std::span<Vec3> impulses,
-                    const IslandOptions& options) override;
+  IslandResult push(const ContactSet& set, std::span<const double> limits, std::span<const Vec3> slips,
+                    std::span<Vec3> impulses, const IslandOptions& options) override;
   IslandResult correct(const ContactSet& set, std::span<const double> limits, std::span<double> impulses,
                        const IslandOptions& options) override;
   void give_back(const ContactSet& set, std::span<const double> normals, std::span<Vec3> total) override;

@@ -160,7 +160,7 @@ bool PlanMaker::counts(const IslandResult& result) {
 // From impulses_, with approach_limits_; bodies get the velocities.
 bool PlanMaker::push(std::vector<RigidBody>& bodies) {
   return contact_list_.empty() ||
-         counts(law_.push(set_of(bodies), approach_limits_, impulses_, options_.solver));
+         counts(law_.push(set_of(bodies), approach_limits_, slips_, impulses_, options_.solver));
 }
 
 // Steps 1 and 2, with the rows' right-hand sides as they are.
@@ -168,10 +168,12 @@ bool PlanMaker::solve() {
   fast_ = courses_.with(courses_.drift);
   contact_list_.clear();
   approach_limits_.clear();
+  slips_.clear();
   impulses_.clear();
   for (const Row& row : rows_) {
     contact_list_.push_back(row.contact);
     approach_limits_.push_back(row.approach_limit(courses_.length()));
+    slips_.push_back(row.slide / courses_.length());
     impulses_.push_back(row.impulse);
   }
   if (!push(fast_)) return false;
@@ -212,6 +214,19 @@ double PlanMaker::end_speed(const Row& row, const std::vector<RigidBody>& bodies
       .dot(b.velocity + b.spin.cross(arm_b) - a.velocity - a.spin.cross(arm_a));
 }
 
+// By how much (m, along the surfaces) the place of contact on B moves against that on A by the end of the paths, beyond what their
+// velocities say: bodies turn.
+Vec3 PlanMaker::slide_of(const Row& row) const {
+  const Path &a = courses_.paths[at(row.contact.body_a)], &b = courses_.paths[at(row.contact.body_b)];
+  const auto moved = [&](const Path& path) -> Vec3 {
+    const Vec3 arm = row.contact.point - path.start.position;
+    return path.end.position - path.start.position +
+           path.end.rotation * (path.start.rotation.transpose() * arm) - arm;
+  };
+  const Vec3 beyond = moved(b) - moved(a) - courses_.length() * lcp::relative_velocity(path_, row.contact);
+  return beyond - row.contact.normal.dot(beyond) * row.contact.normal;
+}
+
 // Solves until the gaps at the end are what the rows say of them.
 // ANCHOR: close_ends
 PlanMaker::Result PlanMaker::close_ends() {
@@ -229,6 +244,7 @@ PlanMaker::Result PlanMaker::close_ends() {
           row.end_gap - row.gap - courses_.length() * lcp::contact_velocity(path_, row.contact);
       worst = std::max(worst, std::abs(bend - row.bend));
       row.bend = bend;
+      row.slide = slide_of(row);
       row.most_push = std::max(0.0, -end_speed(row, fast_));
       const double parts = row.push() > 0 ? lcp::contact_velocity(fast_, row.contact) - row.most_push : 0;
       worst = std::max(worst, courses_.length() * parts);
@@ -258,6 +274,7 @@ bool PlanMaker::gains() const {
     fast.orientation = Quat(courses_.paths[i].end.rotation);
     end_gain += fast.kinetic_energy() - free.kinetic_energy();
   }
+  for (const Row& row : rows_) gain -= lcp::kinematic_work(fast_, row.contact, row.impulse);
   return std::max(gain, end_gain) > kMostBorrowed * size;
 }
 
@@ -339,6 +356,7 @@ std::vector<RigidBody> PlanMaker::without_arrivals(std::vector<Vec3>& early) {
   std::vector<std::size_t> lasting;
   contact_list_.clear();
   approach_limits_.clear();
+  slips_.clear();
   impulses_.clear();
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     early[r] = Vec3::Zero();
@@ -346,6 +364,7 @@ std::vector<RigidBody> PlanMaker::without_arrivals(std::vector<Vec3>& early) {
     lasting.push_back(r);
     contact_list_.push_back(rows_[r].contact);
     approach_limits_.push_back(rows_[r].approach_limit(courses_.length()));
+    slips_.push_back(rows_[r].slide / courses_.length());
     impulses_.push_back(rows_[r].impulse);
   }
   if (lasting.empty() || !push(bodies)) return bodies;

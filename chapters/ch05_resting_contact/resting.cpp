@@ -308,15 +308,20 @@ bool Resting::plan(Instant& instant, Island& island) {
   }
   if (length > kNearlyAll * left) length = left;
   using Result = PlanMaker::Result;
-  for (;;) {
+  for (bool shortened = false;;) {
     const Result result = maker_.make(instant.world, island, instant.now, length,
                                       {options_.solver, envelope() / dt_, may_change});
     report_.checked += maker_.checked();
     instant.report.solves += maker_.solves();
     instant.report.lcp_residual = std::max(instant.report.lcp_residual, maker_.worst_residual());
-    if (result == Result::proved) break;
+    if (result == Result::proved) {
+      for (const Member& member : island.members)
+        if (member.dynamic && (shortened || length == left)) try_length_[at(member.number)] = 2 * length;
+      break;
+    }
     if (result == Result::unsolved && options_.solver.chosen)
       throw lcp::unsolved(instant.world.solver, maker_.status(), maker_.steps(), maker_.worst_residual());
+    shortened = shortened || result != Result::changes;
     if (result == Result::changes)
       for (const Member& member : island.members) ++changes_[at(member.number)];
     const bool meets =
@@ -324,8 +329,6 @@ bool Resting::plan(Instant& instant, Island& island) {
     if (result == Result::unsolved || (!meets && length < kShortest * dt_)) return false;
     length = meets ? std::min(maker_.meeting(), 0.999 * length) : 0.5 * length;
   }
-  for (const Member& member : island.members)
-    if (member.dynamic) try_length_[at(member.number)] = 2 * length;
   start(instant, maker_.take(), length == left ? dt_ : instant.now + length);
   return true;
 }

@@ -67,7 +67,7 @@ void ContactSweeps::start(std::span<const RigidBody> bodies) {
                        body.is_static() ? Mat3(Mat3::Zero()) : body.inverse_inertia_world()});
 }
 
-void ContactSweeps::add(const lcp::Contact& contact, double mu, double limit, const Vec3& impulse) {
+void ContactSweeps::add(const lcp::Contact& contact, double mu, const Vec3& offset, const Vec3& impulse) {
   const Mass &a = bodies_[index(contact.body_a)], &b = bodies_[index(contact.body_b)];
   const Mat3 frame = contact_frame(contact.normal);
   const Vec3 arm_a = contact.turns_a ? Vec3(contact.point - a.place) : Vec3(Vec3::Zero());
@@ -86,11 +86,11 @@ void ContactSweeps::add(const lcp::Contact& contact, double mu, double limit, co
               delassus,
               OneContact(delassus, mu),
               mu,
-              limit,
+              frame.transpose() * offset,
               inverse_where_it_moves(delassus.block<2, 2>(1, 1)),
               project_onto_cone(frame.transpose() * impulse, mu),
               Vec3::Zero()};
-  block.start = relative_velocity(block) + Vec3(limit, 0, 0);
+  block.start = relative_velocity(block) + block.offset;
   blocks_.push_back(block);
 }
 
@@ -122,8 +122,7 @@ double ContactSweeps::sweep(bool backwards, double relaxation, const Solve& solv
   for (int k = 0; k < contacts(); ++k) {
     const int i = backwards ? contacts() - 1 - k : k;
     Block& block = blocks_[index(i)];
-    Vec3 q = relative_velocity(block) - block.delassus * block.r;  // u if this contact did nothing
-    q[0] += block.limit;
+    const Vec3 q = relative_velocity(block) + block.offset - block.delassus * block.r;  // if it did nothing
     const Vec3 change = relaxation * (solve(i, block, q) - block.r);
     if (change.isZero(0)) continue;
     push(block, change);
@@ -137,7 +136,7 @@ double ContactSweeps::sweep(bool backwards, double relaxation, const Solve& solv
 double ContactSweeps::largest_velocity() const {
   double largest = 0;
   for (const Block& block : blocks_) {
-    const Vec3 now = relative_velocity(block) + Vec3(block.limit, 0, 0);
+    const Vec3 now = relative_velocity(block) + block.offset;
     largest = std::max({largest, block.start.norm(), (now - block.start).norm()});
   }
   return largest;
@@ -194,7 +193,7 @@ double ContactSweeps::run_discs(std::span<const double> normals, int most, doubl
 double ContactSweeps::residual() const {
   double worst = 0;
   for (const Block& block : blocks_) {
-    const Vec3 u = relative_velocity(block) + Vec3(block.limit, 0, 0);
+    const Vec3 u = relative_velocity(block) + block.offset;
     const double size = block.delassus.cwiseAbs().maxCoeff();
     if (size > 0) worst = std::max(worst, cone_violation(block.r, u, block.mu, size));
   }

@@ -23,10 +23,11 @@ Mat3 contact_frame(const Vec3& normal);
 // Three lines a contact, one where there is no friction. Velocities of bodies are those with all impulses.
 class ContactSweeps {
  public:
-  // Bodies as they are without impulses (their velocities: without a correction, u = J v + limit).
+  // Bodies as they are without impulses (their velocities: without a correction, u = J v + offset).
   void start(std::span<const RigidBody> bodies);
-  // Adds a contact: mu >= 0; limit (m/s): it may close in with so much. impulse: N s, world, on B, a guess.
-  void add(const lcp::Contact& contact, double mu, double limit, const Vec3& impulse);
+  // Adds a contact: mu >= 0; offset: m/s, world, what is added to its velocity: along the normal with how much it may close in.
+  // impulse: N s, world, on B, a guess.
+  void add(const lcp::Contact& contact, double mu, const Vec3& offset, const Vec3& impulse);
   int contacts() const { return static_cast<int>(blocks_.size()); }
 
   // Coulomb's law for all. Sweeps until no impulse changes by more than `tolerance` (of the largest velocity in the problem),
@@ -58,7 +59,8 @@ class ContactSweeps {
     Vec3 arm_a, arm_b;  // m; zero on a body that is not turned
     Mat3 delassus;      // 1/kg, in the frame
     OneContact one;
-    double mu, limit;
+    double mu;
+    Vec3 offset;  // m/s, in the frame
     Eigen::Matrix2d inverse =
         Eigen::Matrix2d::Zero();  // kg, of the tangents' part of delassus, where it is not zero
     Vec3 r = Vec3::Zero();        // N s, in the frame

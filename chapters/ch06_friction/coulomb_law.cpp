@@ -24,10 +24,10 @@ constexpr double kHeld = 1e-7;  // of the largest velocity, of corrections
 // A contact inside its cone by more than this part of it sticks.
 constexpr double kSticking = 1e-9;
 
-// The part of a plan that is not cut off to end it where something stops: shorter than this, or longer.
+// A plan does not end where a slip ends before the first of these parts of it, or after the second.
 constexpr double kShortest = 1.0 / 64, kNearlyAll = 0.99;
-// m/s: a slower slip has stopped.
-constexpr double kStopped = 1e-9;
+// m: a slip that goes less far has ended; of its speed: it has stopped in the middle of the plan.
+constexpr double kNoPath = 1e-8, kStopped = 1e-9;
 
 Vec3 along_surface(const Vec3& normal, const Vec3& v) {
   return v - normal.dot(v) * normal;
@@ -57,38 +57,37 @@ bool CoulombLaw::rubs(const ContactSet& set) {
   return std::any_of(mu_.begin(), mu_.end(), [](double m) { return m > 0; });
 }
 
-void CoulombLaw::start(const ContactSet& set, std::span<const double> limits,
-                       std::span<const Vec3> impulses) {
+void CoulombLaw::start(const ContactSet& set, std::span<const Vec3> offsets, std::span<const Vec3> impulses) {
   sweeps_.start(set.bodies);
   for (std::size_t i = 0; i < set.contacts.size(); ++i)
-    sweeps_.add(set.contacts[i], mu_[i], limits[i], impulses[i]);
+    sweeps_.add(set.contacts[i], mu_[i], offsets[i], impulses[i]);
 }
 
-void CoulombLaw::sweep(const ContactSet& set, std::span<const double> limits, int most,
-                       std::span<Vec3> impulses, IslandResult& result) {
-  start(set, limits, impulses);
+void CoulombLaw::sweep(const ContactSet& set, int most, std::span<Vec3> impulses, IslandResult& result) {
+  start(set, offsets_, impulses);
   result.residual = sweeps_.run(most, kTolerance);
   for (std::size_t i = 0; i < impulses.size(); ++i) impulses[i] = sweeps_.impulse(static_cast<int>(i));
 }
 
 // ANCHOR: push
-IslandResult CoulombLaw::push(const ContactSet& set, std::span<const double> limits, std::span<Vec3> impulses,
+IslandResult CoulombLaw::push(const ContactSet& set, std::span<const double> limits,
+                              std::span<const Vec3> slips, std::span<Vec3> impulses,
                               const IslandOptions& options) {
   holds_.assign(set.contacts.size(), 0);
-  if (!rubs(set)) return NormalLaw::push(set, limits, impulses, options);
+  if (!rubs(set)) return NormalLaw::push(set, limits, slips, impulses, options);
+  offsets_.clear();
+  for (std::size_t i = 0; i < limits.size(); ++i)
+    offsets_.push_back(limits[i] * set.contacts[i].normal + (slips.empty() ? Vec3(Vec3::Zero()) : slips[i]));
   IslandResult result;
-  sweep(set, limits, kFewSweeps, impulses, result);
+  sweep(set, kFewSweeps, impulses, result);
   const std::size_t count = set.contacts.size();
   const double enough = count <= kOneBody ? kExact : kGood;
-  if (result.residual > enough && count <= kFew)
-    solve_by_matrix(set, limits, Method::newton, impulses, result);
+  if (result.residual > enough && count <= kFew) solve_by_matrix(set, Method::newton, impulses, result);
   if (result.residual > kGood) {
-    sweep(set, limits, kManySweeps, impulses, result);
-    if (result.residual > kGood && count <= kFew)
-      solve_by_matrix(set, limits, Method::newton, impulses, result);
+    sweep(set, kManySweeps, impulses, result);
+    if (result.residual > kGood && count <= kFew) solve_by_matrix(set, Method::newton, impulses, result);
   }
-  if (result.residual > kAccepted && count <= kFew)
-    solve_by_matrix(set, limits, Method::combined, impulses, result);
+  if (result.residual > kAccepted && count <= kFew) solve_by_matrix(set, Method::combined, impulses, result);
   result.solved = result.residual <= kAccepted;
   if (!result.solved) return result;
   result.status = lcp::Status::solved;
@@ -103,11 +102,11 @@ IslandResult CoulombLaw::push(const ContactSet& set, std::span<const double> lim
 // ANCHOR_END: push
 
 // From where sweeps got to.
-void CoulombLaw::solve_by_matrix(const ContactSet& set, std::span<const double> limits, Method method,
-                                 std::span<Vec3> impulses, IslandResult& result) {
+void CoulombLaw::solve_by_matrix(const ContactSet& set, Method method, std::span<Vec3> impulses,
+                                 IslandResult& result) {
   const auto n = static_cast<Eigen::Index>(set.contacts.size());
   std::vector<lcp::Contact> rows;  // of each contact along its normal and two tangents
-  VecX limit = VecX::Zero(3 * n), guess(3 * n);
+  VecX offset(3 * n), guess(3 * n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const lcp::Contact& contact = set.contacts[static_cast<std::size_t>(i)];
     const Mat3 frame = contact_frame(contact.normal);
@@ -115,11 +114,11 @@ void CoulombLaw::solve_by_matrix(const ContactSet& set, std::span<const double> 
       rows.push_back(contact);
       rows.back().normal = frame.col(k);
     }
-    limit[3 * i] = limits[static_cast<std::size_t>(i)];
+    offset.segment<3>(3 * i) = frame.transpose() * offsets_[static_cast<std::size_t>(i)];
     guess.segment<3>(3 * i) = frame.transpose() * impulses[static_cast<std::size_t>(i)];
   }
   const lcp::ImpactProblem problem = lcp::assemble(set.bodies, rows);
-  const VecX b = problem.v_before + limit, mu = Eigen::Map<const VecX>(mu_.data(), n);
+  const VecX b = problem.v_before + offset, mu = Eigen::Map<const VecX>(mu_.data(), n);
   const ConeResult found = solve(ConeProblem{problem.A, b, mu}, method, {.start = &guess});
   if (!found.r.allFinite() || found.residual > result.residual) return;
   result.residual = found.residual;
@@ -135,7 +134,9 @@ IslandResult CoulombLaw::correct(const ContactSet& set, std::span<const double> 
     return NormalLaw::correct(set, limits, impulses, options);
   std::vector<Vec3> guesses;
   for (std::size_t i = 0; i < impulses.size(); ++i) guesses.push_back(impulses[i] * set.contacts[i].normal);
-  start(set, limits, guesses);
+  std::vector<Vec3> offsets;
+  for (std::size_t i = 0; i < limits.size(); ++i) offsets.push_back(limits[i] * set.contacts[i].normal);
+  start(set, offsets, guesses);
   IslandResult result;
   result.residual = sweeps_.run_held(holds_, kManySweeps, kHeld);
   result.solved = result.residual <= 1e-3;
@@ -152,9 +153,8 @@ IslandResult CoulombLaw::correct(const ContactSet& set, std::span<const double> 
 // ANCHOR: give_back
 void CoulombLaw::give_back(const ContactSet& set, std::span<const double> normals, std::span<Vec3> total) {
   if (!rubs(set)) return NormalLaw::give_back(set, normals, total);
-  const std::vector<double> limits(normals.size(), 0.0);
   const std::vector<Vec3> none(normals.size(), Vec3::Zero());
-  start(set, limits, none);
+  start(set, none, none);
   sweeps_.run_discs(normals, kManySweeps, kTolerance);
   for (std::size_t i = 0; i < normals.size(); ++i) {
     const Vec3 impulse = sweeps_.impulse(static_cast<int>(i));
@@ -169,8 +169,8 @@ std::unique_ptr<resting::GaussSeidel> CoulombLaw::gauss_seidel() const {
 }
 
 // The slip of a contact changes evenly: from what it is now, over its mean, to as much on the other side. If it would turn back
-// on the way, it stops there; if the push stops it at once, half of the time is tried.
-// ANCHOR: holds_until
+// on the way, it stops there. If the push stops it at once, its friction is a part of what the cone allows: with all of that the
+// mean would be half of the slip after a time that is half of this part of the plan's.
 double CoulombLaw::holds_until(const ContactSet& mean, std::span<const RigidBody> now,
                                std::span<const Vec3> impulses, double length) const {
   if (mean.contacts.size() > kFewSlips) return length;
@@ -181,11 +181,14 @@ double CoulombLaw::holds_until(const ContactSet& mean, std::span<const RigidBody
     const Vec3 slip = along_surface(contact.normal, lcp::relative_velocity(now, contact));
     const Vec3 middle = along_surface(contact.normal, lcp::relative_velocity(mean.bodies, contact));
     const double speed = slip.norm();
-    if (speed * length < kStopped) continue;
-    const double left = middle.dot(slip) / speed;  // of the speed, in the middle of the plan
-    if (left >= 0.5 * speed) continue;             // it slides on until the end
-    const double stop = left > kStopped * speed ? 0.5 * length * speed / (speed - left) : 0.5 * length;
-    if (stop < kNearlyAll * length) until = std::min(until, std::max(stop, 0.0));
+    const double left = speed > 0 ? middle.dot(slip) / speed : 0;  // of the speed, in the middle of the plan
+    if (left >= 0.5 * speed) continue;                             // it slides on until the end
+    const double normal = impulses[i].dot(contact.normal);
+    const double part = along_surface(contact.normal, impulses[i]).norm() / (mu(mean, contact) * normal);
+    const double stop =
+        left > kStopped * speed ? 0.5 * length * speed / (speed - left) : 0.5 * length * std::min(1.0, part);
+    if (speed * stop < kNoPath || stop > kNearlyAll * length) continue;
+    until = std::min(until, std::max(stop, kShortest * length));
   }
   return until;
 }

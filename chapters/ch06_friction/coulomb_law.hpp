@@ -22,8 +22,8 @@ class CoulombLaw : public resting::NormalLaw {
   explicit CoulombLaw(world::World& world);
 
   // Coulomb's law on the velocities after, with limits as in NormalLaw: K* ∋ (u_N + limit + µ|u_T|, u_T) ⟂ r ∈ K.
-  IslandResult push(const ContactSet& set, std::span<const double> limits, std::span<Vec3> impulses,
-                    const IslandOptions& options) override;
+  IslandResult push(const ContactSet& set, std::span<const double> limits, std::span<const Vec3> slips,
+                    std::span<Vec3> impulses, const IslandOptions& options) override;
   // Contacts that stuck in the last push() do not slip.
   IslandResult correct(const ContactSet& set, std::span<const double> limits, std::span<double> impulses,
                        const IslandOptions& options) override;
@@ -38,16 +38,15 @@ class CoulombLaw : public resting::NormalLaw {
  private:
   double mu(const ContactSet& set, const lcp::Contact& contact) const;
   bool rubs(const ContactSet& set);
-  void start(const ContactSet& set, std::span<const double> limits, std::span<const Vec3> impulses);
-  void sweep(const ContactSet& set, std::span<const double> limits, int most, std::span<Vec3> impulses,
-             IslandResult& result);
-  void solve_by_matrix(const ContactSet& set, std::span<const double> limits, Method method,
-                       std::span<Vec3> impulses, IslandResult& result);
+  void start(const ContactSet& set, std::span<const Vec3> offsets, std::span<const Vec3> impulses);
+  void sweep(const ContactSet& set, int most, std::span<Vec3> impulses, IslandResult& result);
+  void solve_by_matrix(const ContactSet& set, Method method, std::span<Vec3> impulses, IslandResult& result);
 
   const world::World& world_;
   ContactSweeps sweeps_;
-  std::vector<double> mu_;   // of each contact of the set at hand
-  std::vector<char> holds_;  // of each contact of the last push: it sticks
+  std::vector<Vec3> offsets_;  // m/s, world: what is added to each contact's velocity
+  std::vector<double> mu_;     // of each contact of the set at hand
+  std::vector<char> holds_;    // of each contact of the last push: it sticks
 };
 
 }  // namespace fc::friction
