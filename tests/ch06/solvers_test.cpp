@@ -89,8 +89,7 @@ TEST_P(EveryFrictionMethod, NamesWhatItCannotHave) {
   EXPECT_THROW(solve({fixed, falls, mu}, {.sides = 5}), std::invalid_argument);
 }
 
-// What is called solved keeps the law, whoever found it: random contacts of any rank and µ, an eighth of them stuck in
-// the corner of a cone.
+// What is called solved keeps the law, whoever found it: random contacts of any rank, one in eight without friction.
 TEST_P(EveryFrictionMethod, CallsNoWrongAnswerSolved) {
   std::mt19937_64 random(20080101);
   int solved = 0;
@@ -185,7 +184,6 @@ TEST(Boxed, IsExactInTheDirectionOfATangent) {
   EXPECT_GE(solved, 90);
 }
 
-// Where sweeps go in circles for ever, a start on a pyramid, and Newton's method, end it.
 TEST(Pyramid, TurnedComesNearerToTheCone) {
   std::mt19937_64 random(20080107);
   int nearer = 0;
