@@ -1,4 +1,4 @@
-// Caught by: Ex06ManyContacts.OneContactNeedsOneSweep
+// Caught by: Ex06ManyContacts.ABlockBrakes
 // The velocity has the contact's own impulse already.
 #include "ex03_many_contacts.hpp"
 
