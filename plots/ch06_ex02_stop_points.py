@@ -24,7 +24,7 @@ def draw(run: Path) -> plt.Figure:
     stops.plot(0, 0, "+", color=GREY)
     stops.set(title="Stop points of blocks that start at +", xlabel="x [m]", ylabel="y [m]", aspect="equal")
     angles.set(title="The way is turned by", xlabel="direction of the throw [degrees]", ylabel="[degrees]", xlim=(0, 90), xticks=range(0, 91, 15))
-    angles.legend(loc="lower right")
+    stops.legend(loc="lower center", bbox_to_anchor=(0.5, 0.14))
     return figure
 
 
