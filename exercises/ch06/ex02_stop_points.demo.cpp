@@ -1,5 +1,6 @@
 // Exercise 6.2, to be seen: where a block stops that is thrown in each direction, by a box, two pyramids and the cone.
 // Writes stops.csv.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>

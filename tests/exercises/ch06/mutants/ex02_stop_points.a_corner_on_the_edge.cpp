@@ -2,6 +2,7 @@
 // On the diagonal friction is as strong as at a corner.
 #include "ex02_stop_points.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>

@@ -2,6 +2,7 @@
 // The way is along v, only too long.
 #include "ex02_stop_points.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>

@@ -2,6 +2,7 @@
 // Counts the angle between two corners, not half of it.
 #include "ex02_stop_points.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>

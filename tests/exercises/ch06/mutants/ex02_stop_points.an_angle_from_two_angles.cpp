@@ -2,6 +2,7 @@
 // The difference of two angles, which may be a full turn.
 #include "ex02_stop_points.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>

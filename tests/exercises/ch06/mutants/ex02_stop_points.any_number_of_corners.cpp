@@ -2,6 +2,7 @@
 // Takes five corners.
 #include "ex02_stop_points.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>

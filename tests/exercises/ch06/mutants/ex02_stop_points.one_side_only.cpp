@@ -2,6 +2,7 @@
 // Takes the next corner on the left, always.
 #include "ex02_stop_points.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>

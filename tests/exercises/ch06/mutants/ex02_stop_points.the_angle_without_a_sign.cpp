@@ -2,6 +2,7 @@
 // An angle from an arc cosine.
 #include "ex02_stop_points.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>

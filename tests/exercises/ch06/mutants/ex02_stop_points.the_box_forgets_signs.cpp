@@ -2,6 +2,7 @@
 // Squares have no sign.
 #include "ex02_stop_points.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>

@@ -2,6 +2,7 @@
 // A box with its corners on the circle.
 #include "ex02_stop_points.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>

@@ -2,6 +2,7 @@
 // Friction stays at its first corner until that component is used up.
 #include "ex02_stop_points.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
