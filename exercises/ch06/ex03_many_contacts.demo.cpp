@@ -1,5 +1,6 @@
 // Exercise 6.3, to be seen: how the residual falls, sweep by sweep, in three problems, one of which goes in circles; and a block
 // on two feet that brakes. Writes sweeps.csv and block.csv.
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <random>

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -98,7 +99,7 @@ TEST(Ex06ManyContacts, OneContactNeedsOneSweep) {
 }
 
 TEST(Ex06ManyContacts, ABlockBrakes) {
-  // Friction loads the front foot: N = ½ m g (1 ± mu H / b), 0.6 m between the feet, 0.5 m high. Both slide.
+  // Friction loads the front foot: N = ½ m g (1 ± mu H / b), b = 0.6 m between the feet, H = 1 m high. Both slide.
   const double mu = 0.4, weight = 2 * 9.81 / 60;
   const Result got = solve(block(5, mu, 9.81 / 60), 1e-13, 1000);
   ASSERT_TRUE(got.solved) << "residual " << got.residual;

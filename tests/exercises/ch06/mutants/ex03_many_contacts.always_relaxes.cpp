@@ -1,4 +1,4 @@
-// Caught by: Ex06ManyContacts.WhatGoesInCirclesIsRelaxed
+// Caught by: Ex06ManyContacts.RandomProblems
 // Halves its steps after every 50 sweeps, also where they go well.
 #include "ex03_many_contacts.hpp"
 

@@ -1,4 +1,4 @@
-// Caught by: Ex06ManyContacts.OneContactNeedsOneSweep
+// Caught by: Ex06ManyContacts.ABlockBrakes
 // The velocity has the contact's own impulse already.
 #include "ex03_many_contacts.hpp"
 
@@ -62,7 +62,7 @@ Result solve(const Problem& problem, double tolerance, int most) {
       const Vec3 old = result.r.segment<3>(3 * i);
       const Vec3 u = problem.A.middleRows<3>(3 * i) * result.r + problem.b.segment<3>(3 * i);
       const Vec3 now = one_contact(block, u, problem.mu[i]);
-      result.r.segment<3>(3 * i) += result.relaxation * now;
+      result.r.segment<3>(3 * i) += result.relaxation * (now - 0 * old);
     }
     ++result.sweeps;
   }
