@@ -12,6 +12,9 @@ struct ContactSet {
   std::span<RigidBody> bodies;
   std::span<const int> numbers;            // of the bodies in the world
   std::span<const lcp::Contact> contacts;  // n; bodies by their places here
+  // n, or none: m/s, along the surfaces, by which a slip is larger in the middle of a plan than at its start with the same
+  // velocities, since bodies have turned and gone on by then.
+  std::span<const Vec3> bends = {};
 };
 
 class ContactLaw {
@@ -32,6 +35,8 @@ class ContactLaw {
   // velocities in the set.
   virtual double holds_until(const ContactSet& mean, std::span<const RigidBody> now,
                              std::span<const Vec3> impulses, double length) const = 0;
+  // Whether push() looks at the set's bends.
+  virtual bool rubs() const { return false; }
   // The sweeps of a pile.
   virtual std::unique_ptr<GaussSeidel> gauss_seidel() const { return std::make_unique<GaussSeidel>(); }
 };

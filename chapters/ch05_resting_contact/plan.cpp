@@ -145,7 +145,7 @@ void PlanMaker::add_row(const world::World& world, int candidate, const ContactP
 ContactSet PlanMaker::set_of(std::vector<RigidBody>& bodies) {
   numbers_.clear();
   for (const Member& member : courses_.members) numbers_.push_back(member.number);
-  return {bodies, numbers_, contact_list_};
+  return {bodies, numbers_, contact_list_, bends_};
 }
 
 bool PlanMaker::counts(const IslandResult& result) {
@@ -168,10 +168,12 @@ bool PlanMaker::push(std::vector<RigidBody>& bodies) {
 bool PlanMaker::solve() {
   fast_ = courses_.with(courses_.drift);
   contact_list_.clear();
+  bends_.clear();
   approach_limits_.clear();
   impulses_.clear();
   for (const Row& row : rows_) {
     contact_list_.push_back(row.contact);
+    bends_.push_back(row.slip_bend);
     approach_limits_.push_back(row.approach_limit(courses_.length()));
     impulses_.push_back(row.impulse);
   }
@@ -213,6 +215,21 @@ double PlanMaker::end_speed(const Row& row, const std::vector<RigidBody>& bodies
       .dot(b.velocity + b.spin.cross(arm_b) - a.velocity - a.spin.cross(arm_a));
 }
 
+// How much larger the contact's slip is in the middle of the paths, where its bodies stand and its point is then.
+Vec3 PlanMaker::slip_bend(const Row& row) const {
+  const Path &path_a = courses_.paths[at(row.contact.body_a)],
+             &path_b = courses_.paths[at(row.contact.body_b)];
+  const double half = 0.5 * courses_.length();
+  const Pose a = path_a.motion.pose_at(half), b = path_b.motion.pose_at(half);
+  const RigidBody &of_a = fast_[at(row.contact.body_a)], &of_b = fast_[at(row.contact.body_b)];
+  const Vec3 point = row.point.middle(a, b);
+  Vec3 slip = of_b.velocity - of_a.velocity;
+  if (row.contact.turns_b) slip += of_b.spin.cross(point - b.position);
+  if (row.contact.turns_a) slip -= of_a.spin.cross(point - a.position);
+  const Vec3 bend = slip - lcp::relative_velocity(fast_, row.contact);
+  return bend - row.contact.normal.dot(bend) * row.contact.normal;
+}
+
 // Solves until the gaps at the end are what the rows say of them.
 // ANCHOR: close_ends
 PlanMaker::Result PlanMaker::close_ends() {
@@ -233,6 +250,10 @@ PlanMaker::Result PlanMaker::close_ends() {
       row.most_push = std::max(0.0, -end_speed(row, fast_));
       const double parts = row.push() > 0 ? lcp::contact_velocity(fast_, row.contact) - row.most_push : 0;
       worst = std::max(worst, courses_.length() * parts);
+      if (!law_.rubs() || row.arrives) continue;
+      const Vec3 slips = slip_bend(row);
+      worst = std::max(worst, courses_.length() * (slips - row.slip_bend).norm());
+      row.slip_bend = slips;
     }
     if (worst <= kClosed * contacts_.margin()) break;
   }
@@ -265,10 +286,12 @@ bool PlanMaker::gains() const {
 // Up to which time (s) impulses of contacts that last can act evenly.
 double PlanMaker::holds_until() {
   contact_list_.clear();
+  bends_.clear();
   impulses_.clear();
   for (const Row& row : rows_) {
     if (row.arrives) continue;
     contact_list_.push_back(row.contact);
+    bends_.push_back(row.slip_bend);
     impulses_.push_back(row.impulse);
   }
   std::vector<RigidBody> now;
@@ -339,6 +362,7 @@ std::vector<RigidBody> PlanMaker::without_arrivals(std::vector<Vec3>& early) {
   std::vector<RigidBody> bodies = courses_.with(courses_.drift);
   std::vector<std::size_t> lasting;
   contact_list_.clear();
+  bends_.clear();
   approach_limits_.clear();
   impulses_.clear();
   for (std::size_t r = 0; r < rows_.size(); ++r) {
@@ -346,6 +370,7 @@ std::vector<RigidBody> PlanMaker::without_arrivals(std::vector<Vec3>& early) {
     if (rows_[r].arrives) continue;
     lasting.push_back(r);
     contact_list_.push_back(rows_[r].contact);
+    bends_.push_back(rows_[r].slip_bend);
     approach_limits_.push_back(rows_[r].approach_limit(courses_.length()));
     impulses_.push_back(rows_[r].impulse);
   }

@@ -73,12 +73,13 @@ class PlanMaker {
   struct Row {
     int pair;  // among the candidates
     ContactPoint point;
-    lcp::Contact contact;         // bodies by their places among the members
-    double gap = 0;               // m, now
-    double bend = 0;              // m, by which the gap at the end differs from its first order
-    double keep = 0, want = 0;    // m, at the end: for velocities, and for paths
-    Vec3 impulse = Vec3::Zero();  // N s, on B
-    double correction = 0;        // N s
+    lcp::Contact contact;           // bodies by their places among the members
+    double gap = 0;                 // m, now
+    double bend = 0;                // m, by which the gap at the end differs from its first order
+    double keep = 0, want = 0;      // m, at the end: for velocities, and for paths
+    Vec3 impulse = Vec3::Zero();    // N s, on B
+    Vec3 slip_bend = Vec3::Zero();  // m/s, see ContactSet
+    double correction = 0;          // N s
     double end_gap = 0;
     double most_push = std::numeric_limits<double>::
         infinity();  // m/s: velocities are made to part by no more, since no more is taken back at the end
@@ -96,6 +97,7 @@ class PlanMaker {
   bool counts(const IslandResult& result);
   ContactSet set_of(std::vector<RigidBody>& bodies);
   Result close_ends();
+  Vec3 slip_bend(const Row& row) const;
   bool gains() const;
   std::vector<RigidBody> without_arrivals(std::vector<Vec3>& early);
   void remember() const;
@@ -112,7 +114,7 @@ class PlanMaker {
   std::vector<Row> rows_;
   std::vector<lcp::Contact> contact_list_;
   std::vector<double> approach_limits_, corrections_;
-  std::vector<Vec3> impulses_;
+  std::vector<Vec3> impulses_, bends_;
   std::vector<int> numbers_;  // of the members in the world
   double residual_ = 0, meeting_ = 0;
   bool corrects_ = true;

@@ -56,7 +56,8 @@ void ContactSweeps::start(std::span<const RigidBody> bodies) {
                        body.is_static() ? Mat3(Mat3::Zero()) : body.inverse_inertia_world()});
 }
 
-void ContactSweeps::add(const lcp::Contact& contact, double mu, double limit, const Vec3& impulse) {
+void ContactSweeps::add(const lcp::Contact& contact, double mu, double limit, const Vec3& impulse,
+                        const Vec3& bend) {
   const Mass &a = bodies_[index(contact.body_a)], &b = bodies_[index(contact.body_b)];
   const Mat3 frame = contact_frame(contact.normal);
   const Vec3 arm_a = contact.turns_a ? Vec3(contact.point - a.place) : Vec3(Vec3::Zero());
@@ -75,10 +76,10 @@ void ContactSweeps::add(const lcp::Contact& contact, double mu, double limit, co
               delassus,
               OneContact(delassus, mu),
               mu,
-              limit,
+              Vec3(limit, frame.col(1).dot(bend), frame.col(2).dot(bend)),
               {},
               {}};
-  block.start = relative_velocity(block) + Vec3(limit, 0, 0);
+  block.start = relative_velocity(block) + block.limit;
   block.r = project_onto_cone(frame.transpose() * impulse, mu);
   blocks_.push_back(block);
 }
@@ -112,7 +113,7 @@ double ContactSweeps::sweep(bool backwards, double relaxation, const Solve& solv
     const int i = backwards ? contacts() - 1 - k : k;
     Block& block = blocks_[index(i)];
     Vec3 q = relative_velocity(block) - block.delassus * block.r;  // u if this contact did nothing
-    q[0] += block.limit;
+    q += block.limit;
     const Vec3 change = relaxation * (solve(i, block, q) - block.r);
     if (change.isZero(0)) continue;
     push(block, change);
@@ -126,7 +127,7 @@ double ContactSweeps::sweep(bool backwards, double relaxation, const Solve& solv
 double ContactSweeps::largest_velocity() const {
   double largest = 0;
   for (const Block& block : blocks_) {
-    const Vec3 now = relative_velocity(block) + Vec3(block.limit, 0, 0);
+    const Vec3 now = relative_velocity(block) + block.limit;
     largest = std::max({largest, block.start.norm(), (now - block.start).norm()});
   }
   return largest;
@@ -183,7 +184,7 @@ double ContactSweeps::run_discs(std::span<const double> normals, int most, doubl
 double ContactSweeps::residual() const {
   double worst = 0;
   for (const Block& block : blocks_) {
-    const Vec3 u = relative_velocity(block) + Vec3(block.limit, 0, 0);
+    const Vec3 u = relative_velocity(block) + block.limit;
     const double size = block.delassus.cwiseAbs().maxCoeff();
     if (size > 0) worst = std::max(worst, cone_violation(block.r, u, block.mu, size));
   }

@@ -25,8 +25,10 @@ class ContactSweeps {
  public:
   // Bodies as they are without impulses (their velocities: without a correction, u = J v + limit).
   void start(std::span<const RigidBody> bodies);
-  // Adds a contact: mu >= 0; limit (m/s): it may close in with so much. impulse: N s, world, on B, a guess.
-  void add(const lcp::Contact& contact, double mu, double limit, const Vec3& impulse);
+  // Adds a contact: mu >= 0; limit (m/s): it may close in with so much. impulse: N s, world, on B, a guess. bend: m/s, world, along
+  // the surfaces: its slip is by so much another than its velocities say.
+  void add(const lcp::Contact& contact, double mu, double limit, const Vec3& impulse,
+           const Vec3& bend = Vec3::Zero());
   int contacts() const { return static_cast<int>(blocks_.size()); }
 
   // Coulomb's law for all. Sweeps until no impulse changes by more than `tolerance` (of the largest velocity in the problem),
@@ -58,7 +60,8 @@ class ContactSweeps {
     Vec3 arm_a, arm_b;  // m; zero on a body that is not turned
     Mat3 delassus;      // 1/kg, in the frame
     OneContact one;
-    double mu, limit;
+    double mu;
+    Vec3 limit;             // m/s, in the frame: the limit, and the bend
     Vec3 r = Vec3::Zero();  // N s, in the frame
     Vec3 start;             // m/s, u without impulses
   };

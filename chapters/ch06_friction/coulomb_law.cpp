@@ -56,7 +56,8 @@ void CoulombLaw::start(const ContactSet& set, std::span<const double> limits,
                        std::span<const Vec3> impulses) {
   sweeps_.start(set.bodies);
   for (std::size_t i = 0; i < set.contacts.size(); ++i)
-    sweeps_.add(set.contacts[i], mu_[i], limits[i], impulses[i]);
+    sweeps_.add(set.contacts[i], mu_[i], limits[i], impulses[i],
+                set.bends.empty() ? Vec3(Vec3::Zero()) : set.bends[i]);
 }
 
 void CoulombLaw::sweep(const ContactSet& set, std::span<const double> limits, int most,
@@ -103,6 +104,8 @@ bool CoulombLaw::solve_by_matrix(const ContactSet& set, std::span<const double> 
       rows.back().normal = frame.col(k);
     }
     limit[3 * i] = limits[static_cast<std::size_t>(i)];
+    if (!set.bends.empty())
+      limit.segment<2>(3 * i + 1) = frame.rightCols<2>().transpose() * set.bends[static_cast<std::size_t>(i)];
     guess.segment<3>(3 * i) = frame.transpose() * impulses[static_cast<std::size_t>(i)];
   }
   const lcp::ImpactProblem problem = lcp::assemble(set.bodies, rows);
@@ -166,7 +169,8 @@ double CoulombLaw::holds_until(const ContactSet& mean, std::span<const RigidBody
     const lcp::Contact& contact = mean.contacts[i];
     if (!(impulses[i].dot(contact.normal) > 0) || !(mu(mean, contact) > 0)) continue;
     const Vec3 slip = along_surface(contact.normal, lcp::relative_velocity(now, contact));
-    const Vec3 middle = along_surface(contact.normal, lcp::relative_velocity(mean.bodies, contact));
+    Vec3 middle = along_surface(contact.normal, lcp::relative_velocity(mean.bodies, contact));
+    if (!mean.bends.empty()) middle += mean.bends[i];
     const double speed = slip.norm();
     if (speed * length < kStopped) continue;
     const double left = middle.dot(slip) / speed;  // of the speed, in the middle of the plan

@@ -28,6 +28,7 @@ class CoulombLaw : public resting::NormalLaw {
   IslandResult correct(const ContactSet& set, std::span<const double> limits, std::span<double> impulses,
                        const IslandOptions& options) override;
   // With friction of at most µ times what is given back.
+  bool rubs() const override { return true; }
   void give_back(const ContactSet& set, std::span<const double> normals, std::span<Vec3> total) override;
   // Until the first contact that slides comes to rest.
   std::unique_ptr<resting::GaussSeidel> gauss_seidel() const override;
