@@ -222,7 +222,10 @@ Vec3 PlanMaker::slip_bend(const Row& row) const {
   const double half = 0.5 * courses_.length();
   const Pose a = path_a.motion.pose_at(half), b = path_b.motion.pose_at(half);
   const RigidBody &of_a = fast_[at(row.contact.body_a)], &of_b = fast_[at(row.contact.body_b)];
-  const Vec3 point = row.point.middle(a, b);
+  const Vec3 half_gap = 0.5 * row.point.gap_at(a, b) * row.point.normal_at(a, b);
+  // The plane's own point stays behind where the other body's goes on.
+  const Vec3 point =
+      row.point.of_b ? Vec3(row.point.on_a(a, b) + half_gap) : Vec3(row.point.on_b(a, b) - half_gap);
   Vec3 slip = of_b.velocity - of_a.velocity;
   if (row.contact.turns_b) slip += of_b.spin.cross(point - b.position);
   if (row.contact.turns_a) slip -= of_a.spin.cross(point - a.position);
