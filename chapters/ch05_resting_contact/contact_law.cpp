@@ -4,8 +4,8 @@
 
 namespace fc::resting {
 
-IslandResult NormalLaw::push(const ContactSet& set, std::span<const double> limits, std::span<const Vec3>,
-                             std::span<Vec3> impulses, const IslandOptions& options) {
+IslandResult NormalLaw::push(const ContactSet& set, std::span<const double> limits, std::span<Vec3> impulses,
+                             const IslandOptions& options) {
   normals_.clear();
   for (std::size_t i = 0; i < impulses.size(); ++i)
     normals_.push_back(impulses[i].dot(set.contacts[i].normal));

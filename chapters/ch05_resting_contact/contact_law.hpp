@@ -12,6 +12,9 @@ struct ContactSet {
   std::span<RigidBody> bodies;
   std::span<const int> numbers;            // of the bodies in the world
   std::span<const lcp::Contact> contacts;  // n; bodies by their places here
+  // n, or none: m/s, along the surfaces, by which a slip is larger in the middle of a plan than at its start with the same
+  // velocities, since bodies have turned and gone on by then.
+  std::span<const Vec3> bends = {};
 };
 
 class ContactLaw {
@@ -20,9 +23,7 @@ class ContactLaw {
 
   // Finds impulses (n; N s, world, on B) that the law allows, after which contact i closes in with at most limits_i (m/s;
   // negative: it must part), and changes the bodies' velocities. Impulses come in as guesses. Unless solved, nothing changes.
-  // slips: n, m/s, world, or none: what the velocity along the surfaces is more over a plan's path, by turning, than at its start.
-  virtual IslandResult push(const ContactSet& set, std::span<const double> limits,
-                            std::span<const Vec3> slips, std::span<Vec3> impulses,
+  virtual IslandResult push(const ContactSet& set, std::span<const double> limits, std::span<Vec3> impulses,
                             const IslandOptions& options) = 0;
   // The same for velocities of paths, which put gaps right, after push() for the same contacts. The n impulses are along the
   // normals, >= 0.
@@ -34,6 +35,8 @@ class ContactLaw {
   // velocities in the set.
   virtual double holds_until(const ContactSet& mean, std::span<const RigidBody> now,
                              std::span<const Vec3> impulses, double length) const = 0;
+  // Whether push() looks at the set's bends.
+  virtual bool looks_at_bends() const { return false; }
   // How many times dearer than along normals alone a solution is: piles begin at so many times less work.
   virtual double work_factor() const { return 1; }
   // The sweeps of a pile.
@@ -43,8 +46,8 @@ class ContactLaw {
 // Contacts that push along their normals alone.
 class NormalLaw : public ContactLaw {
  public:
-  IslandResult push(const ContactSet& set, std::span<const double> limits, std::span<const Vec3> slips,
-                    std::span<Vec3> impulses, const IslandOptions& options) override;
+  IslandResult push(const ContactSet& set, std::span<const double> limits, std::span<Vec3> impulses,
+                    const IslandOptions& options) override;
   IslandResult correct(const ContactSet& set, std::span<const double> limits, std::span<double> impulses,
                        const IslandOptions& options) override;
   void give_back(const ContactSet& set, std::span<const double> normals, std::span<Vec3> total) override;

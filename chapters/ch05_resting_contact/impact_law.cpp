@@ -113,7 +113,7 @@ struct Stages {
   bool compress(std::span<const lcp::Contact> contacts, std::span<Vec3> impulses) {
     const std::vector<double> limits(contacts.size(), 0.0);
     const IslandResult solved =
-        law.push({set.bodies, set.numbers, contacts}, limits, {}, impulses, options.solver);
+        law.push({set.bodies, set.numbers, contacts}, limits, impulses, options.solver);
     result.residual = std::max(result.residual, solved.residual);
     result.steps += solved.steps;
     result.status = solved.status;

@@ -144,7 +144,7 @@ void PlanMaker::add_row(const world::World& world, int candidate, const ContactP
 ContactSet PlanMaker::set_of(std::vector<RigidBody>& bodies) {
   numbers_.clear();
   for (const Member& member : courses_.members) numbers_.push_back(member.number);
-  return {bodies, numbers_, contact_list_};
+  return {bodies, numbers_, contact_list_, bends_};
 }
 
 bool PlanMaker::counts(const IslandResult& result) {
@@ -160,7 +160,7 @@ bool PlanMaker::counts(const IslandResult& result) {
 // From impulses_, with approach_limits_; bodies get the velocities.
 bool PlanMaker::push(std::vector<RigidBody>& bodies) {
   return contact_list_.empty() ||
-         counts(law_.push(set_of(bodies), approach_limits_, slips_, impulses_, options_.solver));
+         counts(law_.push(set_of(bodies), approach_limits_, impulses_, options_.solver));
 }
 
 // Steps 1 and 2, with the rows' right-hand sides as they are.
@@ -168,12 +168,12 @@ bool PlanMaker::solve() {
   fast_ = courses_.with(courses_.drift);
   contact_list_.clear();
   approach_limits_.clear();
-  slips_.clear();
+  bends_.clear();
   impulses_.clear();
   for (const Row& row : rows_) {
     contact_list_.push_back(row.contact);
     approach_limits_.push_back(row.approach_limit(courses_.length()));
-    slips_.push_back(row.slide / courses_.length());
+    bends_.push_back(row.slip_bend);
     impulses_.push_back(row.impulse);
   }
   if (!push(fast_)) return false;
@@ -214,17 +214,22 @@ double PlanMaker::end_speed(const Row& row, const std::vector<RigidBody>& bodies
       .dot(b.velocity + b.spin.cross(arm_b) - a.velocity - a.spin.cross(arm_a));
 }
 
-// By how much (m, along the surfaces) the place of contact on B moves against that on A by the end of the paths, beyond what their
-// velocities say: bodies turn.
-Vec3 PlanMaker::slide_of(const Row& row) const {
-  const Path &a = courses_.paths[at(row.contact.body_a)], &b = courses_.paths[at(row.contact.body_b)];
-  const auto moved = [&](const Path& path) -> Vec3 {
-    const Vec3 arm = row.contact.point - path.start.position;
-    return path.end.position - path.start.position +
-           path.end.rotation * (path.start.rotation.transpose() * arm) - arm;
-  };
-  const Vec3 beyond = moved(b) - moved(a) - courses_.length() * lcp::relative_velocity(path_, row.contact);
-  return beyond - row.contact.normal.dot(beyond) * row.contact.normal;
+// How much larger the contact's slip is in the middle of the paths, where its bodies stand and its point is then.
+Vec3 PlanMaker::slip_bend(const Row& row) const {
+  const Path &path_a = courses_.paths[at(row.contact.body_a)],
+             &path_b = courses_.paths[at(row.contact.body_b)];
+  const double half = 0.5 * courses_.length();
+  const Pose a = path_a.motion.pose_at(half), b = path_b.motion.pose_at(half);
+  const RigidBody &of_a = fast_[at(row.contact.body_a)], &of_b = fast_[at(row.contact.body_b)];
+  const Vec3 half_gap = 0.5 * row.point.gap_at(a, b) * row.point.normal_at(a, b);
+  // The plane's own point stays behind where the other body's goes on.
+  const Vec3 point =
+      row.point.of_b ? Vec3(row.point.on_a(a, b) + half_gap) : Vec3(row.point.on_b(a, b) - half_gap);
+  Vec3 slip = of_b.velocity - of_a.velocity;
+  if (row.contact.turns_b) slip += of_b.spin.cross(point - b.position);
+  if (row.contact.turns_a) slip -= of_a.spin.cross(point - a.position);
+  const Vec3 bend = slip - lcp::relative_velocity(fast_, row.contact);
+  return bend - row.contact.normal.dot(bend) * row.contact.normal;
 }
 
 // Solves until the gaps at the end are what the rows say of them.
@@ -244,10 +249,13 @@ PlanMaker::Result PlanMaker::close_ends() {
           row.end_gap - row.gap - courses_.length() * lcp::contact_velocity(path_, row.contact);
       worst = std::max(worst, std::abs(bend - row.bend));
       row.bend = bend;
-      row.slide = slide_of(row);
       row.most_push = std::max(0.0, -end_speed(row, fast_));
       const double parts = row.push() > 0 ? lcp::contact_velocity(fast_, row.contact) - row.most_push : 0;
       worst = std::max(worst, courses_.length() * parts);
+      if (!law_.looks_at_bends() || row.arrives) continue;
+      const Vec3 bend_of_slip = slip_bend(row);
+      worst = std::max(worst, courses_.length() * (bend_of_slip - row.slip_bend).norm());
+      row.slip_bend = bend_of_slip;
     }
     if (worst <= kClosed * contacts_.margin()) break;
   }
@@ -281,10 +289,12 @@ bool PlanMaker::gains() const {
 // Up to which time (s) impulses of contacts that last can act evenly.
 double PlanMaker::holds_until() {
   contact_list_.clear();
+  bends_.clear();
   impulses_.clear();
   for (const Row& row : rows_) {
     if (row.arrives) continue;
     contact_list_.push_back(row.contact);
+    bends_.push_back(row.slip_bend);
     impulses_.push_back(row.impulse);
   }
   std::vector<RigidBody> now;
@@ -356,7 +366,7 @@ std::vector<RigidBody> PlanMaker::without_arrivals(std::vector<Vec3>& early) {
   std::vector<std::size_t> lasting;
   contact_list_.clear();
   approach_limits_.clear();
-  slips_.clear();
+  bends_.clear();
   impulses_.clear();
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     early[r] = Vec3::Zero();
@@ -364,7 +374,7 @@ std::vector<RigidBody> PlanMaker::without_arrivals(std::vector<Vec3>& early) {
     lasting.push_back(r);
     contact_list_.push_back(rows_[r].contact);
     approach_limits_.push_back(rows_[r].approach_limit(courses_.length()));
-    slips_.push_back(rows_[r].slide / courses_.length());
+    bends_.push_back(rows_[r].slip_bend);
     impulses_.push_back(rows_[r].impulse);
   }
   if (lasting.empty() || !push(bodies)) return bodies;

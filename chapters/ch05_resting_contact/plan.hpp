@@ -75,13 +75,13 @@ class PlanMaker {
   struct Row {
     int pair;  // among the candidates
     ContactPoint point;
-    lcp::Contact contact;         // bodies by their places among the members
-    double gap = 0;               // m, now
-    double bend = 0;              // m, by which the gap at the end differs from its first order
-    Vec3 slide = Vec3::Zero();    // m, likewise, along the surfaces
-    double keep = 0, want = 0;    // m, at the end: for velocities, and for paths
-    Vec3 impulse = Vec3::Zero();  // N s, on B
-    double correction = 0;        // N s
+    lcp::Contact contact;           // bodies by their places among the members
+    double gap = 0;                 // m, now
+    double bend = 0;                // m, by which the gap at the end differs from its first order
+    Vec3 slip_bend = Vec3::Zero();  // m/s, see ContactSet
+    double keep = 0, want = 0;      // m, at the end: for velocities, and for paths
+    Vec3 impulse = Vec3::Zero();    // N s, on B
+    double correction = 0;          // N s
     double end_gap = 0;
     double most_push = std::numeric_limits<double>::
         infinity();  // m/s: velocities are made to part by no more, since no more is taken back at the end
@@ -102,7 +102,7 @@ class PlanMaker {
   bool gains() const;
   std::vector<RigidBody> without_arrivals(std::vector<Vec3>& early);
   void remember() const;
-  Vec3 slide_of(const Row& row) const;
+  Vec3 slip_bend(const Row& row) const;
   double holds_until();
   double arrival(const Row& row) const;
   bool add_rows_of(const world::World& world, int candidate);
@@ -116,7 +116,7 @@ class PlanMaker {
   std::vector<Row> rows_;
   std::vector<lcp::Contact> contact_list_;
   std::vector<double> approach_limits_, corrections_;
-  std::vector<Vec3> slips_, impulses_;
+  std::vector<Vec3> bends_, impulses_;
   std::vector<int> numbers_;  // of the members in the world
   double residual_ = 0, meeting_ = 0;
   bool corrects_ = true;

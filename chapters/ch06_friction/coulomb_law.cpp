@@ -70,14 +70,14 @@ void CoulombLaw::sweep(const ContactSet& set, int most, std::span<Vec3> impulses
 }
 
 // ANCHOR: push
-IslandResult CoulombLaw::push(const ContactSet& set, std::span<const double> limits,
-                              std::span<const Vec3> slips, std::span<Vec3> impulses,
+IslandResult CoulombLaw::push(const ContactSet& set, std::span<const double> limits, std::span<Vec3> impulses,
                               const IslandOptions& options) {
   holds_.assign(set.contacts.size(), 0);
-  if (!rubs(set)) return NormalLaw::push(set, limits, slips, impulses, options);
+  if (!rubs(set)) return NormalLaw::push(set, limits, impulses, options);
   offsets_.clear();
   for (std::size_t i = 0; i < limits.size(); ++i)
-    offsets_.push_back(limits[i] * set.contacts[i].normal + (slips.empty() ? Vec3(Vec3::Zero()) : slips[i]));
+    offsets_.push_back(limits[i] * set.contacts[i].normal +
+                       (set.bends.empty() ? Vec3(Vec3::Zero()) : set.bends[i]));
   IslandResult result;
   sweep(set, kFewSweeps, impulses, result);
   const std::size_t count = set.contacts.size();
@@ -179,7 +179,8 @@ double CoulombLaw::holds_until(const ContactSet& mean, std::span<const RigidBody
     const lcp::Contact& contact = mean.contacts[i];
     if (!(impulses[i].dot(contact.normal) > 0) || !(mu(mean, contact) > 0)) continue;
     const Vec3 slip = along_surface(contact.normal, lcp::relative_velocity(now, contact));
-    const Vec3 middle = along_surface(contact.normal, lcp::relative_velocity(mean.bodies, contact));
+    Vec3 middle = along_surface(contact.normal, lcp::relative_velocity(mean.bodies, contact));
+    if (!mean.bends.empty()) middle += mean.bends[i];
     const double speed = slip.norm();
     const double left = speed > 0 ? middle.dot(slip) / speed : 0;  // of the speed, in the middle of the plan
     if (left >= 0.5 * speed) continue;                             // it slides on until the end

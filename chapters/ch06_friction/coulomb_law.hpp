@@ -22,14 +22,15 @@ class CoulombLaw : public resting::NormalLaw {
   explicit CoulombLaw(world::World& world);
 
   // Coulomb's law on the velocities after, with limits as in NormalLaw: K* ∋ (u_N + limit + µ|u_T|, u_T) ⟂ r ∈ K.
-  IslandResult push(const ContactSet& set, std::span<const double> limits, std::span<const Vec3> slips,
-                    std::span<Vec3> impulses, const IslandOptions& options) override;
+  IslandResult push(const ContactSet& set, std::span<const double> limits, std::span<Vec3> impulses,
+                    const IslandOptions& options) override;
   // Contacts that stuck in the last push() do not slip.
   IslandResult correct(const ContactSet& set, std::span<const double> limits, std::span<double> impulses,
                        const IslandOptions& options) override;
   // With friction of at most µ times what is given back.
   void give_back(const ContactSet& set, std::span<const double> normals, std::span<Vec3> total) override;
   // Until the first contact that slides comes to rest.
+  bool looks_at_bends() const override { return true; }
   double work_factor() const override { return 10; }
   std::unique_ptr<resting::GaussSeidel> gauss_seidel() const override;
   double holds_until(const ContactSet& mean, std::span<const RigidBody> now, std::span<const Vec3> impulses,

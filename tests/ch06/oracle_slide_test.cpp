@@ -173,30 +173,25 @@ std::string on_turntable(double mu, double rate, double radius) {
          list({radius, 0, 0.02 + 0.5 * kH}) + ", velocity: [0, " + number(rate * radius) +
          ", 0], spin: [0, 0, " + number(rate) + "]}\n";
 }
-// A plan's path is straight, along the table's velocity at its start: what sticks drifts outwards by half of (Ω dt)^2 r in a frame.
+// A plan looks at slips in its middle, so that what sticks keeps its distance.
 TEST(Slide, R8BlockOnATurntable) {
-  const double mu = 0.5, edge = std::sqrt(mu * kG), time = 2;  // rad/s, at 1 m
-  std::vector<double> drifts;
+  const double mu = 0.5, edge = std::sqrt(mu * kG);  // rad/s, at 1 m
   for (const double dt : kSteps) {
-    const double rate = 0.8 * edge;
-    Rubbing holds(on_turntable(mu, rate, 1), dt), slips(on_turntable(mu, edge * 1.002, 1), dt);
-    holds.run(time);
-    slips.run(5);
+    const double rate = 0.999 * edge;
+    Rubbing holds(on_turntable(mu, rate, 1), dt), slips(on_turntable(mu, edge * 1.001, 1), dt);
+    holds.run(5);
     const fc::RigidBody& s = holds.body(1);
-    const double drift = s.position.head<2>().norm() - 1,
-                 predicted = std::exp(0.5 * rate * rate * dt * time) - 1;
-    drifts.push_back(std::abs(drift));
-    tell("R8 dt {:.5f}: drift {:.4g} m of {:.4g} in {} s, slipped {:.3g} m", dt, drift, predicted, time,
-         slips.body(1).position.head<2>().norm() - 1);
-    EXPECT_LE(std::abs(drift), 1.05 * predicted) << "m, frames of " << dt;
+    const double drift = s.position.head<2>().norm() - 1;
     const Vec3 slip = s.velocity - rate * Vec3(0, 0, 1).cross(s.position);
+    slips.run(3);
+    const double slipped = slips.body(1).position.head<2>().norm() - 1;
+    tell("R8 dt {:.5f}: drift {:.3g} m, slipped {:.3g} m", dt, drift, slipped);
+    EXPECT_LE(std::abs(drift), 1e-9) << "m, frames of " << dt;
     EXPECT_LE(slip.head<2>().norm(), 1e-9) << "m/s: it sticks";
-    EXPECT_GE(slips.body(1).position.head<2>().norm(), 1.1) << "m: it slips, frames of " << dt;
+    EXPECT_GE(slipped, 1e-3) << "m: it slips, frames of " << dt;
     expect_laws(holds, "turntable");
     expect_laws(slips, "turntable");
   }
-  tell("R8: order {:.2f}", order_of(drifts));
-  EXPECT_GE(order_of(drifts), 0.95);
 }
 
 // R9. A block put on a belt.

@@ -121,8 +121,7 @@ TEST(Spin, R20SlidesAndTurnsOnThreeCorners) {
     expect_laws(sim, "slides and turns");
   }
   tell("R20: order {:.2f}", order_of(errors));
-  EXPECT_GE(order_of(errors), 0.95);
-  EXPECT_LE(errors[0], 0.7 * kSteps[0]) << "m and m/s";
+  EXPECT_GE(order_of(errors), 1.8);
 }
 
 // R18. A pencil that falls from upright on an edge: the edge of its end is the pivot, at the distance d from its centre, and
@@ -179,9 +178,10 @@ TEST(Spin, R18WhichWayAPencilSlips) {
         ((backwards ? f < mu : f > -mu) ? low : high) = middle;
       }
       Rubbing sim(pencil(mu, 10 * kDegree), dt);
-      double before = 0, now = 10 * kDegree, share = 0;
+      double earlier = 0, before = 0, now = 10 * kDegree, share = 0;  // a whole frame has to slip
       while (now < 70 * kDegree && std::abs(share) < mu * (1 - 1e-6)) {
         sim.step();
+        earlier = before;
         before = now;
         now = tilt_of(sim.body(1));
         share = sim.forces[1].x() / sim.forces[1].z();
@@ -190,8 +190,8 @@ TEST(Spin, R18WhichWayAPencilSlips) {
       tell("R18 µ {} dt {:.5f}: slips {} between {:.2f} and {:.2f} deg, exact {:.2f}", mu, dt,
            share > 0 ? "backwards" : "forwards", before / kDegree, now / kDegree, low / kDegree);
       EXPECT_EQ(share > 0, backwards) << mu << ", " << dt;
-      EXPECT_LE(before, low + 0.5 * kDegree) << mu << ", " << dt;
-      EXPECT_GE(now, low - 0.5 * kDegree) << mu << ", " << dt;
+      EXPECT_LE(earlier, low + 0.1 * kDegree) << mu << ", " << dt;
+      EXPECT_GE(now, low - 0.1 * kDegree) << mu << ", " << dt;
       expect_laws(sim, fmt::format("pencil, µ {}, frames of {}", mu, dt));
     }
 }
