@@ -285,7 +285,7 @@ TEST(Ex06Creeping, RandomScenesKeepTheLaws) {
     return Vec3(size * Vec3(any(random) - 0.5, any(random) - 0.5, any(random) - 0.5));
   };
   int slips = 0, sticks = 0, impacts = 0;
-  for (int trial = 0; trial < 80; ++trial) {
+  for (int trial = 0; trial < 30; ++trial) {
     Scene scene;
     scene.margin = kMargin;
     scene.floor.friction = any(random);
@@ -342,9 +342,9 @@ TEST(Ex06Creeping, RandomScenesKeepTheLaws) {
           << "J" << where() << ": more than corrections lifted";
     }
   }
-  EXPECT_GT(slips, 500) << "of the test itself";
-  EXPECT_GT(sticks, 500) << "of the test itself";
-  EXPECT_GT(impacts, 200) << "of the test itself";
+  EXPECT_GT(slips, 200) << "of the test itself";
+  EXPECT_GT(sticks, 200) << "of the test itself";
+  EXPECT_GT(impacts, 100) << "of the test itself";
 }
 
 }  // namespace
