@@ -5,6 +5,8 @@
 #include <BulletCollision/Gimpact/btGImpactShape.h>
 #include <btBulletDynamicsCommon.h>
 
+#include <cmath>
+
 #include "tests/bench/ch04_engines.hpp"
 
 namespace fc::bench {
@@ -57,7 +59,8 @@ Collider collider_of(const Shape& shape) {
 
 class BulletEngine : public Engine {
  public:
-  BulletEngine(const Scene& scene, const std::vector<Shape>& shapes, bool ccd, int iterations)
+  BulletEngine(const Scene& scene, const std::vector<Shape>& shapes, bool ccd, int iterations,
+               double friction)
       : dispatcher_(&configuration_), world_(&dispatcher_, &broadphase_, &solver_, &configuration_) {
     btGImpactCollisionAlgorithm::registerAlgorithm(&dispatcher_);
     const Vec3 gravity = scene.gravity.value_or(Vec3(Vec3::Zero()));
@@ -73,7 +76,7 @@ class BulletEngine : public Engine {
       const Vec3 inertia = start.inertia_body.diagonal();
       btRigidBody::btRigidBodyConstructionInfo info(
           start.mass, nullptr, colliders_[static_cast<std::size_t>(spec.shape)].shape.get(), vector(inertia));
-      info.m_friction = 0;
+      info.m_friction = std::sqrt(friction);  // a pair takes the product
       info.m_rollingFriction = 0;
       info.m_restitution = shape.restitution;
       info.m_linearDamping = info.m_angularDamping = 0;
@@ -129,8 +132,8 @@ class BulletEngine : public Engine {
 }  // namespace
 
 std::unique_ptr<Engine> make_bullet(const Scene& scene, const std::vector<Shape>& shapes, bool ccd,
-                                    int iterations) {
-  return std::make_unique<BulletEngine>(scene, shapes, ccd, iterations);
+                                    int iterations, double friction) {
+  return std::make_unique<BulletEngine>(scene, shapes, ccd, iterations, friction);
 }
 
 }  // namespace fc::bench

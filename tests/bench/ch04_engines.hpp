@@ -21,12 +21,13 @@ class Engine {
   virtual int contacts() const = 0;
 };
 
-// Balls, blocks, hulls and meshes, without friction, damping or sleep; each with its own defaults for the
+// Balls, blocks, hulls and meshes, without damping or sleep; each with its own defaults for the
 // rest. `shapes` are those of the scene, built.
 std::unique_ptr<Engine> make_ours(const Scene& scene);
-// `iterations`: of the solver; those given are the engines' own defaults.
+// `iterations`: of the solver; those given are the engines' own defaults. `friction`: Coulomb's coefficient, of all pairs.
 std::unique_ptr<Engine> make_bullet(const Scene& scene, const std::vector<Shape>& shapes, bool ccd,
-                                    int iterations = 10);
-std::unique_ptr<Engine> make_ode(const Scene& scene, const std::vector<Shape>& shapes, int iterations = 20);
+                                    int iterations = 10, double friction = 0);
+std::unique_ptr<Engine> make_ode(const Scene& scene, const std::vector<Shape>& shapes, int iterations = 20,
+                                 double friction = 0);
 
 }  // namespace fc::bench

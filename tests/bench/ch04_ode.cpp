@@ -35,7 +35,8 @@ HullData hull_data(const TriangleMesh& core) {
 
 class OdeEngine : public Engine {
  public:
-  OdeEngine(const Scene& scene, const std::vector<Shape>& shapes, int iterations) : shapes_(shapes) {
+  OdeEngine(const Scene& scene, const std::vector<Shape>& shapes, int iterations, double friction)
+      : shapes_(shapes), friction_(friction) {
     dInitODE2(0);
     world_ = dWorldCreate();
     space_ = dHashSpaceCreate(nullptr);
@@ -127,7 +128,8 @@ class OdeEngine : public Engine {
     for (int i = 0; i < count; ++i) {
       contacts[i].surface = {};
       contacts[i].surface.mode = dContactBounce;
-      contacts[i].surface.mu = 0;
+      if (friction_ > 0) contacts[i].surface.mode |= dContactApprox1;  // µ times the normal impulse
+      contacts[i].surface.mu = friction_;
       contacts[i].surface.bounce = restitution;
       contacts[i].surface.bounce_vel = 0;
       dJointAttach(dJointCreateContact(world_, joints_, &contacts[i]), dGeomGetBody(a), dGeomGetBody(b));
@@ -136,6 +138,7 @@ class OdeEngine : public Engine {
   }
 
   const std::vector<Shape>& shapes_;
+  double friction_;
   dWorldID world_;
   dSpaceID space_;
   dJointGroupID joints_;
@@ -149,8 +152,9 @@ class OdeEngine : public Engine {
 
 }  // namespace
 
-std::unique_ptr<Engine> make_ode(const Scene& scene, const std::vector<Shape>& shapes, int iterations) {
-  return std::make_unique<OdeEngine>(scene, shapes, iterations);
+std::unique_ptr<Engine> make_ode(const Scene& scene, const std::vector<Shape>& shapes, int iterations,
+                                 double friction) {
+  return std::make_unique<OdeEngine>(scene, shapes, iterations, friction);
 }
 
 }  // namespace fc::bench

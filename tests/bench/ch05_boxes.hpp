@@ -1,4 +1,5 @@
-// The scenes of the benchmark: boxes in a pit, a wall and a stack; meshes. And how deep boxes overlap, whoever moved them.
+// The scenes of chapters 5 and 6's benchmarks: boxes in a pit, walls, a stack, pyramids, an arch; meshes. And how deep bodies
+// overlap, whoever moved them.
 #pragma once
 
 #include <filesystem>
@@ -6,6 +7,7 @@
 
 #include "common/rigid_body.hpp"
 #include "common/scene.hpp"
+#include "common/shape.hpp"
 
 namespace fc::bench {
 
@@ -15,6 +17,14 @@ Scene heap(int nx, int ny, int layers);
 Scene wall(int columns, int rows);
 Scene stack(int boxes);
 
+// Without friction these fall. The same wall without walls about it.
+Scene free_wall(int columns, int rows);
+// In a plane, boxes of a metre, each across the gap between two below: `layers` at the bottom, one on top.
+Scene pyramid(int layers);
+// A semicircle of stones of a kilogram, hulls: 10 m to the middle of its thickness, which is 2 m. The joints are open by half of
+// the envelope.
+Scene arch(int stones);
+
 // Meshes. A chain of links, straight, a millimetre of slack in every joint, that falls and is held at both ends. `file`: where
 // the link is written.
 Scene chain(int links, const std::filesystem::path& file);
@@ -23,9 +33,29 @@ Scene rings(int count);
 // The scene `bowl` of chapter 5: a bunny of 69,666 triangles.
 Scene bunny_in_a_bowl();
 
-// The deepest overlap of two boxes of the scene in these states, m; 0 if none overlap. By the fifteen axes of
-// two boxes (Gottschalk, Lin, Manocha 1996): the smallest of the overlaps along them. Static boxes among
-// themselves do not count.
-double deepest_overlap(const Scene& scene, const std::vector<RigidBody>& states);
+// How deep bodies overlap: boxes and hulls, by the axes of two convex polyhedra (Gottschalk, Lin, Manocha 1996, for boxes):
+// across their faces, and across an edge of either.
+class OverlapJudge {
+ public:
+  OverlapJudge(const Scene& scene, const std::vector<Shape>& shapes);
+  // The deepest overlap of two bodies in these states, m: the smallest of the overlaps along the axes; 0 if no two overlap.
+  // Static bodies among themselves do not count.
+  double deepest(const std::vector<RigidBody>& states) const;
+
+ private:
+  struct Solid {
+    std::vector<Vec3> corners, normals, edges;  // of parallel normals, and edges, only one
+  };
+  // A body in the world.
+  struct Placed {
+    Solid solid;
+    Vec3 position;
+  };
+  static Solid solid_of(const Shape& shape);
+  static double overlap(const Placed& a, const Placed& b);
+
+  const Scene& scene_;
+  std::vector<Solid> solids_;  // of the scene's shapes
+};
 
 }  // namespace fc::bench
