@@ -15,9 +15,9 @@ using resting::at;
 // body, and of more: Newton's method is tried, if there are few, then more sweeps. Above the last a solver that always has an answer.
 constexpr double kTolerance = 1e-14, kExact = 1e-12, kGood = 1e-8, kAccepted = 1e-4;
 constexpr int kFewSweeps = 40, kManySweeps = 600;
-// Contacts of which Newton's method is quicker than sweeps; and among which plans end
-// where a slip ends.
-constexpr int kOneBody = 8, kFew = 24, kFewSlips = 16;
+// Contacts of one body; of which Newton's method is quicker than sweeps, and is tried at all; and among which plans end where a
+// slip ends.
+constexpr int kOneBody = 8, kFew = 24, kMostOfMatrix = 120, kFewSlips = 16;
 
 constexpr double kHeld = 1e-7;  // of the largest velocity, of corrections
 
@@ -87,6 +87,8 @@ IslandResult CoulombLaw::push(const ContactSet& set, std::span<const double> lim
     sweep(set, kManySweeps, impulses, result);
     if (result.residual > kGood && count <= kFew) solve_by_matrix(set, Method::newton, impulses, result);
   }
+  if (result.residual > kAccepted && count > kFew && count <= kMostOfMatrix)
+    solve_by_matrix(set, Method::newton, impulses, result);
   if (result.residual > kAccepted && count <= kFew) solve_by_matrix(set, Method::combined, impulses, result);
   result.solved = result.residual <= kAccepted;
   if (!result.solved) return result;
