@@ -83,6 +83,7 @@ Resting::Resting(const Scene& scene, world::World& world, double dt, const RestO
 RestReport Resting::step(world::World& world, const world::Listeners& listeners) {
   report_ = {};
   contacts_.next_frame();
+  law_->next_frame();
   std::fill(meetings_.begin(), meetings_.end(), 0);
   std::fill(changes_.begin(), changes_.end(), 0);
   records_.clear();

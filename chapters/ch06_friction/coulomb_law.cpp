@@ -11,13 +11,14 @@ namespace {
 
 using resting::at;
 
-// Sweeps until impulses change by less than the first, of the largest velocity. The residual that is wanted of the contacts of one
-// body, and of more: Newton's method is tried, if there are few, then more sweeps. Above the last a solver that always has an answer.
-constexpr double kTolerance = 1e-14, kExact = 1e-12, kGood = 1e-8, kAccepted = 1e-4;
-constexpr int kFewSweeps = 40, kManySweeps = 600;
-// Contacts of one body; of which Newton's method is quicker than sweeps, and is tried at all; and among which plans end where a
-// slip ends.
-constexpr int kOneBody = 8, kFew = 24, kMostOfMatrix = 120, kFewSlips = 16;
+// Sweeps until impulses change by less than the first, of the largest velocity. Then the residuals that are wanted of the contacts
+// of one body, of few, and of more; above the last an island is not solved.
+constexpr double kTolerance = 1e-14, kExact = 1e-12, kGood = 1e-8, kOfMany = 1e-6, kAccepted = 1e-4;
+constexpr int kByTurns[] = {40, 50, 100, 200, 400}, kManySweeps = 600;
+// Contacts of one body; of which Newton's method is quicker than sweeps; of which all methods are tried in turn, so many times in
+// a frame; and among which plans end where a slip ends.
+constexpr int kNewtonSteps = 15, kMostDear = 6;
+constexpr int kOneBody = 8, kFew = 24, kMostOfMatrix = 60, kFewSlips = 16;
 
 constexpr double kHeld = 1e-7;  // of the largest velocity, of corrections
 
@@ -79,17 +80,16 @@ IslandResult CoulombLaw::push(const ContactSet& set, std::span<const double> lim
     offsets_.push_back(limits[i] * set.contacts[i].normal +
                        (set.bends.empty() ? Vec3(Vec3::Zero()) : set.bends[i]));
   IslandResult result;
-  sweep(set, kFewSweeps, impulses, result);
+  result.residual = std::numeric_limits<double>::infinity();
   const std::size_t count = set.contacts.size();
   const double enough = count <= kOneBody ? kExact : kGood;
-  if (result.residual > enough && count <= kFew) solve_by_matrix(set, Method::newton, impulses, result);
-  if (result.residual > kGood) {
-    sweep(set, kManySweeps, impulses, result);
-    if (result.residual > kGood && count <= kFew) solve_by_matrix(set, Method::newton, impulses, result);
+  for (const int sweeps : kByTurns) {  // each end of some sweeps is another start for Newton's method
+    if (result.residual <= (count <= kFew ? kGood : kOfMany)) break;
+    sweep(set, sweeps, impulses, result);
+    if (result.residual > enough && count <= kFew) solve_by_matrix(set, Method::newton, impulses, result);
   }
-  if (result.residual > kAccepted && count > kFew && count <= kMostOfMatrix)
-    solve_by_matrix(set, Method::newton, impulses, result);
-  if (result.residual > kAccepted && count <= kFew) solve_by_matrix(set, Method::combined, impulses, result);
+  if (result.residual > kAccepted && (count <= kFew || (count <= kMostOfMatrix && ++dear_ <= kMostDear)))
+    solve_by_matrix(set, Method::combined, impulses, result);
   result.solved = result.residual <= kAccepted;
   if (!result.solved) return result;
   result.status = lcp::Status::solved;
@@ -121,7 +121,8 @@ void CoulombLaw::solve_by_matrix(const ContactSet& set, Method method, std::span
   }
   const lcp::ImpactProblem problem = lcp::assemble(set.bodies, rows);
   const VecX b = problem.v_before + offset, mu = Eigen::Map<const VecX>(mu_.data(), n);
-  const ConeResult found = solve(ConeProblem{problem.A, b, mu}, method, {.start = &guess});
+  const ConeResult found = solve(ConeProblem{problem.A, b, mu}, method,
+                                 {.limit = method == Method::newton ? kNewtonSteps : 0, .start = &guess});
   if (!found.r.allFinite() || found.residual > result.residual) return;
   result.residual = found.residual;
   for (Eigen::Index i = 0; i < n; ++i) {

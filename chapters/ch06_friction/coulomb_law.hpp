@@ -21,6 +21,7 @@ class CoulombLaw : public resting::NormalLaw {
   // Balls that rub turn: sets the world's effects.
   explicit CoulombLaw(world::World& world);
 
+  void next_frame() override { dear_ = 0; }
   // Coulomb's law on the velocities after, with limits as in NormalLaw: K* ∋ (u_N + limit + µ|u_T|, u_T) ⟂ r ∈ K.
   IslandResult push(const ContactSet& set, std::span<const double> limits, std::span<Vec3> impulses,
                     const IslandOptions& options) override;
@@ -47,6 +48,7 @@ class CoulombLaw : public resting::NormalLaw {
   ContactSweeps sweeps_;
   std::vector<Vec3> offsets_;  // m/s, world: what is added to each contact's velocity
   std::vector<double> mu_;     // of each contact of the set at hand
+  int dear_ = 0;               // solutions by all methods in turn, of many contacts, in this frame
   std::vector<char> holds_;    // of each contact of the last push: it sticks
 };
 
