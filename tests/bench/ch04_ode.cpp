@@ -38,6 +38,7 @@ class OdeEngine : public Engine {
   OdeEngine(const Scene& scene, const std::vector<Shape>& shapes, int iterations, double friction)
       : shapes_(shapes), friction_(friction) {
     dInitODE2(0);
+    dRandSetSeed(0);  // of the order of its rows: or a row would depend on those that ran before it
     world_ = dWorldCreate();
     space_ = dHashSpaceCreate(nullptr);
     joints_ = dJointGroupCreate(0);
