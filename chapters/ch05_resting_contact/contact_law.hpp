@@ -39,8 +39,8 @@ class ContactLaw {
                              std::span<const Vec3> impulses, double length) const = 0;
   // Whether push() looks at the set's bends.
   virtual bool looks_at_bends() const { return false; }
-  // How many times dearer than along normals alone a solution is: piles begin at so many times less work.
-  virtual double work_factor() const { return 1; }
+  // How much dearer than along normals alone it is to go on from an arrival: piles begin with so many times fewer.
+  virtual double arrival_factor() const { return 1; }
   // The sweeps of a pile.
   virtual std::unique_ptr<GaussSeidel> gauss_seidel() const { return std::make_unique<GaussSeidel>(); }
 };

@@ -68,7 +68,7 @@ Island IslandFinder::grow(const world::World& world, int body, const std::vector
 }
 
 std::vector<std::vector<int>> find_piles(const world::World& world, Contacts& contacts, double dt,
-                                         double most_work) {
+                                         double most_work, double arrival_factor) {
   const std::size_t count = world.bodies.size();
   std::vector<int> parent(count), arrivals(count, 0), points(count, 0);
   std::iota(parent.begin(), parent.end(), 0);
@@ -103,7 +103,7 @@ std::vector<std::vector<int>> find_piles(const world::World& world, Contacts& co
   std::vector<int> pile_of(count, -1);
   for (int body = 0; body < static_cast<int>(count); ++body) {
     const auto first = at(root(body));
-    if (event_work(arrivals[first], points[first]) <= most_work) continue;
+    if (event_work(arrival_factor * arrivals[first], points[first]) <= most_work) continue;
     if (pile_of[first] < 0) {
       pile_of[first] = static_cast<int>(piles.size());
       piles.emplace_back();

@@ -66,14 +66,14 @@ class IslandFinder {
 
 // How much work it would be to follow bodies from event to event: with so many pairs of which each may come into contact, and
 // so many contact points that can push at once.
-inline double event_work(int arrivals, int rank) {
+inline double event_work(double arrivals, int rank) {
   const double rows = 8 + rank;
   return (1 + arrivals) * rows * rows;
 }
 
 // Groups of bodies that are in contact, or may come into contact with each other within dt seconds from a frame's start on,
-// that would be more than `most_work`. Their boxes are in the schedule.
+// that would be more than `most_work`; an arrival counts `arrival_factor` times. Their boxes are in the schedule.
 std::vector<std::vector<int>> find_piles(const world::World& world, Contacts& contacts, double dt,
-                                         double most_work);
+                                         double most_work, double arrival_factor);
 
 }  // namespace fc::resting

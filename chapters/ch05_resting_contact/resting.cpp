@@ -70,7 +70,6 @@ Resting::Resting(const Scene& scene, world::World& world, double dt, const RestO
       changes_(world.bodies.size(), 0),
       try_length_(world.bodies.size(), std::numeric_limits<double>::infinity()),
       energy_(world.bodies.size(), 0) {
-  options_.most_work /= law_->work_factor();
   const SolverSpec usual;
   const SolverSpec& solver = world.solver;
   if (solver.method != usual.method || solver.limit != usual.limit || solver.tolerance != usual.tolerance) {
@@ -108,7 +107,8 @@ std::vector<int> Resting::begin(world::World& world, double dt, world::StepRepor
   }
   plans_.clear();
   free_plans_.clear();
-  piles_.begin(world.bodies.size(), find_piles(world, contacts_, dt, options_.most_work));
+  piles_.begin(world.bodies.size(),
+               find_piles(world, contacts_, dt, options_.most_work, law_->arrival_factor()));
   Instant instant{world, 0, report, listeners};
   for (int body = 0; body < static_cast<int>(world.bodies.size()); ++body)
     if (world.is_dynamic(body) && !world.bodies[at(body)].asleep) instant.bodies.push_back(body);

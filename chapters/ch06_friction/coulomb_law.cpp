@@ -82,12 +82,14 @@ IslandResult CoulombLaw::push(const ContactSet& set, std::span<const double> lim
   IslandResult result;
   result.residual = std::numeric_limits<double>::infinity();
   const std::size_t count = set.contacts.size();
-  const double enough = count <= kOneBody ? kExact : kGood;
+  const double enough = count <= kOneBody ? kExact : count <= kFew ? kGood : kOfMany;
   for (const int sweeps : kByTurns) {  // each end of some sweeps is another start for Newton's method
     if (result.residual <= (count <= kFew ? kGood : kOfMany)) break;
     sweep(set, sweeps, impulses, result);
     if (result.residual > enough && count <= kFew) solve_by_matrix(set, Method::newton, impulses, result);
   }
+  if (result.residual > kOfMany && count > kFew && count <= kMostOfMatrix)
+    solve_by_matrix(set, Method::newton, impulses, result);
   if (result.residual > kAccepted && (count <= kFew || (count <= kMostOfMatrix && ++dear_ <= kMostDear)))
     solve_by_matrix(set, Method::combined, impulses, result);
   result.solved = result.residual <= kAccepted;

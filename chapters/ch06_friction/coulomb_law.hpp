@@ -32,7 +32,7 @@ class CoulombLaw : public resting::NormalLaw {
   void give_back(const ContactSet& set, std::span<const double> normals, std::span<Vec3> total) override;
   // Until the first contact that slides comes to rest.
   bool looks_at_bends() const override { return true; }
-  double work_factor() const override { return 1; }
+  double arrival_factor() const override { return 30; }
   std::unique_ptr<resting::GaussSeidel> gauss_seidel() const override;
   double holds_until(const ContactSet& mean, std::span<const RigidBody> now, std::span<const Vec3> impulses,
                      double length) const override;
