@@ -14,7 +14,7 @@ using resting::at;
 // Sweeps until impulses change by less than this, of the largest velocity. With a larger residual than the second the matrix is
 // looked at, of so many contacts at most; then many sweeps are tried, and with more than the last it is not solved.
 constexpr double kTolerance = 1e-14, kExact = 1e-12, kAccepted = 1e-6;
-constexpr int kFewSweeps = 40, kMostOfMatrix = 60, kManySweeps = 3000;
+constexpr int kFewSweeps = 40, kMostOfMatrix = 250, kManySweeps = 3000;
 
 // A contact inside its cone by more than this part of it sticks.
 constexpr double kSticking = 1e-9;
