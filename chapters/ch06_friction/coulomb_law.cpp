@@ -18,7 +18,7 @@ constexpr int kByTurns[] = {40, 50, 100, 200, 400}, kManySweeps = 600;
 // Contacts of one body; of which Newton's method is quicker than sweeps; of which all methods are tried in turn, so many times in
 // a frame; and among which plans end where a slip ends.
 constexpr int kNewtonSteps = 15, kMostDear = 6;
-constexpr int kOneBody = 8, kFew = 24, kMostOfMatrix = 60, kFewSlips = 16;
+constexpr int kOneBody = 8, kFew = 24, kMostOfMatrix = 250, kFewSlips = 16;
 
 constexpr double kHeld = 1e-7;  // of the largest velocity, of corrections
 
@@ -84,12 +84,12 @@ IslandResult CoulombLaw::push(const ContactSet& set, std::span<const double> lim
   const std::size_t count = set.contacts.size();
   const double enough = count <= kOneBody ? kExact : count <= kFew ? kGood : kOfMany;
   for (const int sweeps : kByTurns) {  // each end of some sweeps is another start for Newton's method
-    if (result.residual <= (count <= kFew ? kGood : kOfMany)) break;
+    if (result.residual <= enough) break;
     sweep(set, sweeps, impulses, result);
-    if (result.residual > enough && count <= kFew) solve_by_matrix(set, Method::newton, impulses, result);
+    const bool tries =
+        count <= kFew || (count <= kMostOfMatrix && (sweeps == kByTurns[0] || sweeps == kByTurns[4]));
+    if (result.residual > enough && tries) solve_by_matrix(set, Method::newton, impulses, result);
   }
-  if (result.residual > kOfMany && count > kFew && count <= kMostOfMatrix)
-    solve_by_matrix(set, Method::newton, impulses, result);
   if (result.residual > kAccepted && (count <= kFew || (count <= kMostOfMatrix && ++dear_ <= kMostDear)))
     solve_by_matrix(set, Method::combined, impulses, result);
   result.solved = result.residual <= kAccepted;
