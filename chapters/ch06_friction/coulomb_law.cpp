@@ -15,10 +15,10 @@ using resting::at;
 // of one body, of few, and of more; above the last an island is not solved.
 constexpr double kTolerance = 1e-14, kExact = 1e-12, kGood = 1e-8, kOfMany = 1e-6, kAccepted = 1e-4;
 constexpr int kByTurns[] = {40, 50, 100, 200, 400}, kManySweeps = 600;
-// Contacts of one body; of which Newton's method is quicker than sweeps; of which all methods are tried in turn, so many times in
-// a frame; and among which plans end where a slip ends.
+// Contacts of one body; of which Newton's method is quicker than sweeps; of which it is tried at all; of which all methods are tried
+// in turn, so many times in a frame; and among which plans end where a slip ends.
 constexpr int kNewtonSteps = 15, kMostDear = 6;
-constexpr int kOneBody = 8, kFew = 24, kMostOfMatrix = 250, kFewSlips = 16;
+constexpr int kOneBody = 8, kFew = 24, kMostOfMatrix = 250, kMostInTurn = 60, kFewSlips = 16;
 
 constexpr double kHeld = 1e-7;  // of the largest velocity, of corrections
 
@@ -90,7 +90,7 @@ IslandResult CoulombLaw::push(const ContactSet& set, std::span<const double> lim
         count <= kFew || (count <= kMostOfMatrix && (sweeps == kByTurns[0] || sweeps == kByTurns[4]));
     if (result.residual > enough && tries) solve_by_matrix(set, Method::newton, impulses, result);
   }
-  if (result.residual > kAccepted && (count <= kFew || (count <= kMostOfMatrix && ++dear_ <= kMostDear)))
+  if (result.residual > kAccepted && (count <= kFew || (count <= kMostInTurn && ++dear_ <= kMostDear)))
     solve_by_matrix(set, Method::combined, impulses, result);
   result.solved = result.residual <= kAccepted;
   if (!result.solved) return result;
