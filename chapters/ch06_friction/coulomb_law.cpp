@@ -11,14 +11,14 @@ namespace {
 
 using resting::at;
 
-// Sweeps until impulses change by less than the first, of the largest velocity. Then the residuals that are wanted of the contacts
-// of one body, of few, and of more; above the last an island is not solved.
-constexpr double kTolerance = 1e-14, kExact = 1e-12, kGood = 1e-8, kOfMany = 1e-6, kAccepted = 1e-4;
+// Sweeps until impulses change by less than the first, of the largest velocity. Then the residuals that are wanted of few
+// contacts, and of more; above the last two islands are not solved.
+constexpr double kTolerance = 1e-14, kExact = 1e-12, kGood = 1e-8, kAcceptedOfFew = 1e-6, kAccepted = 1e-4;
 constexpr int kByTurns[] = {40, 50, 100, 200, 400}, kManySweeps = 600;
-// Contacts of one body; of which Newton's method is quicker than sweeps; of which it is tried at all; of which all methods are tried
-// in turn, so many times in a frame; and among which plans end where a slip ends.
+// Contacts of which Newton's method is quicker than sweeps; of which it is tried at all; of which all methods are tried
+// in turn, so many times in a frame (of more once); and among which plans end where a slip ends.
 constexpr int kNewtonSteps = 15, kMostDear = 6;
-constexpr int kOneBody = 8, kFew = 24, kMostOfMatrix = 250, kMostInTurn = 60, kFewSlips = 16;
+constexpr int kFew = 32, kMostOfMatrix = 250, kMostInTurn = 60, kFewSlips = 16;
 
 constexpr double kHeld = 1e-7;  // of the largest velocity, of corrections
 
@@ -26,9 +26,9 @@ constexpr double kHeld = 1e-7;  // of the largest velocity, of corrections
 constexpr double kSticking = 1e-9;
 
 // A plan does not end where a slip ends before the first of these parts of it, or after the second.
-constexpr double kShortest = 1.0 / 64, kNearlyAll = 0.99;
+constexpr double kShortest = 1.0 / 2048, kNearlyAll = 0.99;
 // m: a slip that goes less far has ended; of its speed: it has stopped in the middle of the plan.
-constexpr double kNoPath = 1e-8, kStopped = 1e-9;
+constexpr double kNoPath = 1e-10, kStopped = 1e-9;
 
 Vec3 along_surface(const Vec3& normal, const Vec3& v) {
   return v - normal.dot(v) * normal;
@@ -82,7 +82,8 @@ IslandResult CoulombLaw::push(const ContactSet& set, std::span<const double> lim
   IslandResult result;
   result.residual = std::numeric_limits<double>::infinity();
   const std::size_t count = set.contacts.size();
-  const double enough = count <= kOneBody ? kExact : count <= kFew ? kGood : kOfMany;
+  const bool few = count <= kFew;
+  const double enough = few ? kExact : kGood, accepted = few ? kAcceptedOfFew : kAccepted;
   for (const int sweeps : kByTurns) {  // each end of some sweeps is another start for Newton's method
     if (result.residual <= enough) break;
     sweep(set, sweeps, impulses, result);
@@ -90,9 +91,10 @@ IslandResult CoulombLaw::push(const ContactSet& set, std::span<const double> lim
         count <= kFew || (count <= kMostOfMatrix && (sweeps == kByTurns[0] || sweeps == kByTurns[4]));
     if (result.residual > enough && tries) solve_by_matrix(set, Method::newton, impulses, result);
   }
-  if (result.residual > kAccepted && (count <= kFew || (count <= kMostInTurn && ++dear_ <= kMostDear)))
+  if (result.residual > accepted && (count <= kFew || ++dear_ <= (count <= kMostInTurn ? kMostDear : 1)) &&
+      count <= kMostOfMatrix)
     solve_by_matrix(set, Method::combined, impulses, result);
-  result.solved = result.residual <= kAccepted;
+  result.solved = result.residual <= accepted;
   if (!result.solved) return result;
   result.status = lcp::Status::solved;
   for (std::size_t i = 0; i < impulses.size(); ++i) {
@@ -123,8 +125,9 @@ void CoulombLaw::solve_by_matrix(const ContactSet& set, Method method, std::span
   }
   const lcp::ImpactProblem problem = lcp::assemble(set.bodies, rows);
   const VecX b = problem.v_before + offset, mu = Eigen::Map<const VecX>(mu_.data(), n);
-  const ConeResult found = solve(ConeProblem{problem.A, b, mu}, method,
-                                 {.limit = method == Method::newton ? kNewtonSteps : 0, .start = &guess});
+  const ConeResult found =
+      solve(ConeProblem{problem.A, b, mu}, method,
+            {.limit = method == Method::newton ? kNewtonSteps : 0, .tolerance = kExact, .start = &guess});
   if (!found.r.allFinite() || found.residual > result.residual) return;
   result.residual = found.residual;
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -175,11 +178,13 @@ std::unique_ptr<resting::GaussSeidel> CoulombLaw::gauss_seidel() const {
 
 // The slip of a contact changes evenly: from what it is now, over its mean, to as much on the other side. If it would turn back
 // on the way, it stops there. If the push stops it at once, its friction is a part of what the cone allows: with all of that the
-// mean would be half of the slip after a time that is half of this part of the plan's.
+// mean would be half of the slip after a time that is half of this part of the plan's. Corners share a body's friction as they
+// like, so the last of these guesses is tried: when it was too long, the next try knows better.
+// ANCHOR: holds_until
 double CoulombLaw::holds_until(const ContactSet& mean, std::span<const RigidBody> now,
                                std::span<const Vec3> impulses, double length) const {
   if (mean.contacts.size() > kFewSlips) return length;
-  double until = length;
+  double until = length, stuck = 0;  // where nobody sticks yet; the last of those that do
   for (std::size_t i = 0; i < mean.contacts.size(); ++i) {
     const lcp::Contact& contact = mean.contacts[i];
     if (!(impulses[i].dot(contact.normal) > 0) || !(mu(mean, contact) > 0)) continue;
@@ -189,14 +194,18 @@ double CoulombLaw::holds_until(const ContactSet& mean, std::span<const RigidBody
     const double speed = slip.norm();
     const double left = speed > 0 ? middle.dot(slip) / speed : 0;  // of the speed, in the middle of the plan
     if (left >= 0.5 * speed) continue;                             // it slides on until the end
+    const bool sticks = left <= kStopped * speed;
     const double normal = impulses[i].dot(contact.normal);
     const double part = along_surface(contact.normal, impulses[i]).norm() / (mu(mean, contact) * normal);
-    const double stop =
-        left > kStopped * speed ? 0.5 * length * speed / (speed - left) : 0.5 * length * std::min(1.0, part);
+    const double stop = 0.5 * length * (sticks ? std::min(1.0, part) : speed / (speed - left));
     if (speed * stop < kNoPath || stop > kNearlyAll * length) continue;
-    until = std::min(until, std::max(stop, kShortest * length));
+    if (sticks)
+      stuck = std::max(stuck, stop);
+    else
+      until = std::min(until, stop);
   }
-  return until;
+  if (stuck > 0) until = std::min(until, stuck);
+  return std::max(until, kShortest * length);
 }
 // ANCHOR_END: holds_until
 
