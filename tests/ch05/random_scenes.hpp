@@ -193,7 +193,7 @@ inline std::string broken_by(Worst& worst, const fc::Scene& scene, const MakeLaw
                                rise + report.correction_energy, before.size, report.correction_energy));
     if (report.correction_energy > 0.02 * before.size)
       fault(frame, fmt::format("corrections add {:.3g} of {:.3g} J", report.correction_energy, before.size));
-    if (newton > 1e-10 && !report.shortened)
+    if (newton > (law ? 1e-9 : 1e-10) && !report.shortened)
       fault(frame, fmt::format("Newton's law is off by {:.2g}", newton));
     if (widest > 1.0001 * resting.envelope())
       fault(frame, fmt::format("an impulse across {:.3g} envelopes", widest / resting.envelope()));
