@@ -185,9 +185,9 @@ const LaterName* find_later_name(const std::string& name) {
 }
 
 std::string chapter_title(int chapter) {
-  static const std::vector<std::string> titles = {"convex advancement", "hull hierarchy",  "impulse LCP",
-                                                  "multibody stepping", "resting contact", "friction",
-                                                  "joints"};
+  static const std::vector<std::string> titles = {
+      "convex advancement", "hull hierarchy", "impulse LCP", "multibody stepping",
+      "resting contact",    "friction",       "joints"};
   const auto index = static_cast<std::size_t>(chapter - 1);
   return "chapter " + std::to_string(chapter) + (index < titles.size() ? " (" + titles[index] + ")" : "");
 }
