@@ -1,5 +1,7 @@
 #include "ch05_resting_contact/rest_records.hpp"
 
+#include "ch05_resting_contact/contacts.hpp"
+
 namespace fc::resting {
 
 world::ImpactRecord record_of(double time, const lcp::Contact& contact, const Vec3& before, const Vec3& after,
