@@ -100,11 +100,6 @@ Vec3 ContactSweeps::relative_velocity(const Block& block) const {
          (b.velocity + b.spin.cross(block.arm_b) - a.velocity - a.spin.cross(block.arm_a));
 }
 
-Vec3 ContactSweeps::velocity(int contact) const {
-  const Block& block = blocks_[index(contact)];
-  return block.frame * relative_velocity(block);
-}
-
 void ContactSweeps::push(const Block& block, const Vec3& impulse) {
   const Vec3 p = block.frame * impulse;
   Mass &a = bodies_[index(block.a)], &b = bodies_[index(block.b)];
@@ -176,18 +171,25 @@ double ContactSweeps::run_held(std::span<const char> holds, int most, double tol
     const Eigen::Vector2d tangent = -(block.inverse * (still + normal * c));
     return {normal, tangent[0], tangent[1]};
   });
-  return 0;
+  double worst = 0;
+  for (int i = 0; i < contacts(); ++i) {
+    const Block& block = blocks_[index(i)];
+    const Vec3 u = relative_velocity(block) + block.offset;
+    worst = std::max(worst, std::abs(std::min(block.delassus(0, 0) * block.r[0], u[0])));
+    if (holds[index(i)]) worst = std::max(worst, (u - block.start).tail<2>().norm());
+  }
+  const double largest = largest_velocity();
+  return largest > 0 ? worst / largest : 0;
 }
 // ANCHOR_END: held
 
-double ContactSweeps::run_discs(std::span<const double> normals, int most, double tolerance) {
+void ContactSweeps::run_discs(std::span<const double> normals, int most, double tolerance) {
   run(most, tolerance, [&](int i, const Block& block, const Vec3& q) -> Vec3 {
     const double normal = normals[index(i)];
     const Eigen::Vector2d d = q.tail<2>() + normal * block.delassus.block<2, 1>(1, 0);
     const Eigen::Vector2d tangent = disc_friction(block.delassus.block<2, 2>(1, 1), d, block.mu * normal);
     return {normal, tangent[0], tangent[1]};
   });
-  return 0;
 }
 
 double ContactSweeps::residual() const {
@@ -199,13 +201,6 @@ double ContactSweeps::residual() const {
   }
   const double largest = largest_velocity();
   return largest > 0 ? worst / largest : 0;
-}
-
-void ContactSweeps::apply_to(std::span<RigidBody> bodies) const {
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    bodies[i].velocity = bodies_[i].velocity;
-    bodies[i].spin = bodies_[i].spin;
-  }
 }
 
 }  // namespace fc::friction

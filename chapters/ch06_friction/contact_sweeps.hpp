@@ -10,13 +10,6 @@
 
 namespace fc::friction {
 
-// What an impulse of a contact may be.
-enum class Law {
-  coulomb,  // Signorini's condition and Coulomb's law, on the velocities after
-  held,     // a normal impulse >= 0 as without friction; the tangents do not move where the contact holds
-  disc,     // the normal impulse is given, and friction is of at most a given size (Tresca)
-};
-
 // The columns: a contact's normal (unit) and two tangents. Nothing depends on which: each contact is solved exactly.
 Mat3 contact_frame(const Vec3& normal);
 
@@ -33,19 +26,18 @@ class ContactSweeps {
   // Coulomb's law for all. Sweeps until no impulse changes by more than `tolerance` (of the largest velocity in the problem),
   // at most so many. Where sweeps go in circles they are relaxed. The residual that was reached, see residual().
   double run(int most, double tolerance);
-  // Normal impulses as without friction; contacts with holds[i] do not move along their tangents.
+  // Normal impulses as without friction; contacts with holds[i] do not move along their tangents. The worst of what is left of both,
+  // over the largest velocity without impulses or due to them.
   double run_held(std::span<const char> holds, int most, double tolerance);
   // Normal impulses as given (N s); friction is of at most mu times these.
-  double run_discs(std::span<const double> normals, int most, double tolerance);
+  void run_discs(std::span<const double> normals, int most, double tolerance);
 
   // The worst violation of Coulomb's law at a contact (cone_violation), over the largest velocity without impulses or due to them.
   double residual() const;
 
   Vec3 impulse(int contact) const {
     return blocks_[index(contact)].frame * blocks_[index(contact)].r;
-  }                                                  // N s, world, on B
-  Vec3 velocity(int contact) const;                  // m/s, world: of B's point as seen from A's
-  void apply_to(std::span<RigidBody> bodies) const;  // velocities with all impulses
+  }  // N s, world, on B
 
  private:
   struct Mass {

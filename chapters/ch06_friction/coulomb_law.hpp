@@ -30,10 +30,10 @@ class CoulombLaw : public resting::NormalLaw {
                        const IslandOptions& options) override;
   // With friction of at most µ times what is given back.
   void give_back(const ContactSet& set, std::span<const double> normals, std::span<Vec3> total) override;
-  // Until the first contact that slides comes to rest.
   bool looks_at_bends() const override { return true; }
   double arrival_factor() const override { return 30; }
   std::unique_ptr<resting::GaussSeidel> gauss_seidel() const override;
+  // Until the first contact that slides comes to rest.
   double holds_until(const ContactSet& mean, std::span<const RigidBody> now, std::span<const Vec3> impulses,
                      double length) const override;
 

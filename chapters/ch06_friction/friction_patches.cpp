@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ch06_friction/contact_sweeps.hpp"
+
 namespace fc::friction {
 
 using resting::at;
@@ -46,8 +48,8 @@ void PatchedGaussSeidel::end_pair(int first, int world_a, int world_b, std::span
     members_.push_back({row, 1 / of_row(row).root, static_cast<float>(arm.norm()), arm});
   }
 
-  patch.tangents[0] = (std::abs(n.x()) < 0.6 ? Vec3::UnitX() : Vec3::UnitY()).cross(n).normalized();
-  patch.tangents[1] = n.cross(patch.tangents[0]);
+  const Mat3 frame = contact_frame(n);
+  for (int k = 0; k < 2; ++k) patch.tangents[k] = frame.col(k + 1);
   Vec3 move_a[2], turn_a[2], move_b[2], turn_b[2];
   for (int k = 0; k < 2; ++k) {
     const Vec3& t = patch.tangents[k];
