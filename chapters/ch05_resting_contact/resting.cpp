@@ -27,7 +27,7 @@ constexpr double kShortestOfPile = 1.0 / 512;
 constexpr double kNearlyAll = 0.75;
 
 // A body in contact whose points are slower than this part of the margin in a frame stands still: below it is round-off of
-// impulses that cancel.
+// impulses that cancel. So much a body may lose in a frame, in all its instants together.
 constexpr double kStill = 1e-9;
 
 // What happens at the frame's end is reported a little before it (of a frame): it belongs to this frame, whose velocities it makes.
@@ -68,6 +68,7 @@ Resting::Resting(const Scene& scene, world::World& world, double dt, const RestO
       dt_(dt),
       meetings_(world.bodies.size(), 0),
       changes_(world.bodies.size(), 0),
+      stilled_(world.bodies.size(), 0),
       try_length_(world.bodies.size(), std::numeric_limits<double>::infinity()),
       energy_(world.bodies.size(), 0) {
   const SolverSpec usual;
@@ -85,6 +86,7 @@ RestReport Resting::step(world::World& world, const world::Listeners& listeners)
   law_->next_frame();
   std::fill(meetings_.begin(), meetings_.end(), 0);
   std::fill(changes_.begin(), changes_.end(), 0);
+  std::fill(stilled_.begin(), stilled_.end(), 0);
   records_.clear();
   const std::int64_t searched = contacts_.searched();
   world::StepReport report = world::step_with(*this, world, frame_, listeners);
@@ -281,10 +283,13 @@ bool Resting::resolve(Instant& instant, Island& island) {
   }
   for (Member& member :
        island.members) {  // what is left of a velocity in contact that does not move the body
+    if (!member.dynamic) continue;
     const double reach = reach_of(instant.world, member.number);
     const double speed = member.state.velocity.norm() + reach * member.state.spin.norm();
-    if (member.dynamic && dt_ * speed < kStill * envelope())
-      member.state.velocity = member.state.spin = Vec3::Zero();
+    double& stilled = stilled_[at(member.number)];
+    if (dt_ * (stilled + speed) >= kStill * envelope()) continue;
+    stilled += speed;
+    member.state.velocity = member.state.spin = Vec3::Zero();
   }
   if (result.impact && instant.listeners.instant) {
     for (const Member& member : island.members)

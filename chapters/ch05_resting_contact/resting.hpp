@@ -99,6 +99,7 @@ class Resting : public world::Planner {
   PileList piles_;
   std::vector<int> meetings_;       // of each body, in this frame
   std::vector<int> changes_;        // of its plans, likewise: those that ended because impulses had to change
+  std::vector<double> stilled_;     // m/s, that was taken as rest in this frame
   std::vector<double> try_length_;  // s, of each body's next plan at most
   std::vector<double> energy_;      // J, of each body when it got its motion, in this frame
   RestReport report_;

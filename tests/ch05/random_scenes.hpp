@@ -173,10 +173,9 @@ inline std::string broken_by(Worst& worst, const fc::Scene& scene, const MakeLaw
       if (s.is_static()) continue;
       const Vec3 weight =
           world.effects.gravity ? Vec3(s.mass * dt * *world.effects.gravity) : Vec3(Vec3::Zero());
-      // What moves a point by less than 1e-9 of the envelope in a frame is taken as rest, at the end of each plan: with another
-      // law there may be many more of them in a frame.
-      const double rest = (law ? 200 : 10) * s.mass * resting.envelope() / dt;
-      const double size = momentum[i].norm() + weight.norm() + pushed[i] + rest;
+      // What moves a point by less than 1e-9 of the envelope in a frame is taken as rest.
+      const double size =
+          momentum[i].norm() + weight.norm() + pushed[i] + 10 * s.mass * resting.envelope() / dt;
       newton = std::max(newton, (s.momentum() - momentum[i] - weight - impulse[i]).norm() / size);
     }
     const double kinematic = report.step.kinematic_work;
@@ -193,7 +192,7 @@ inline std::string broken_by(Worst& worst, const fc::Scene& scene, const MakeLaw
                                rise + report.correction_energy, before.size, report.correction_energy));
     if (report.correction_energy > 0.02 * before.size)
       fault(frame, fmt::format("corrections add {:.3g} of {:.3g} J", report.correction_energy, before.size));
-    if (newton > (law ? 1e-9 : 1e-10) && !report.shortened)
+    if (newton > 1e-10 && !report.shortened)
       fault(frame, fmt::format("Newton's law is off by {:.2g}", newton));
     if (widest > 1.0001 * resting.envelope())
       fault(frame, fmt::format("an impulse across {:.3g} envelopes", widest / resting.envelope()));
