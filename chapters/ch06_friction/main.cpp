@@ -31,8 +31,13 @@ std::vector<Effect> explain(const Scene& scene) {
   std::vector<Effect> list = resting::explain(with_envelope(scene));
   std::erase_if(list, [](const Effect& effect) { return effect.name == "no rotation"; });
   const world::World world = world::build_world(scene);
+  std::vector<char> moves(world.shapes.size(),
+                          0);  // whether a body of the shape can be moved: two that cannot never rub
+  for (const world::Body& body : world.bodies)
+    moves[static_cast<std::size_t>(body.shape)] |= !body.state.is_static();
   for (std::size_t a = 0; a < world.shapes.size(); ++a)
     for (std::size_t b = a; b < world.shapes.size(); ++b) {
+      if (!moves[a] && !moves[b]) continue;
       const double mu = world.pair_rules.friction(world.shapes, static_cast<int>(a), static_cast<int>(b));
       list.push_back(
           {"friction", fmt::format("pair of '{}' and '{}'", world.shapes[a].name, world.shapes[b].name),
