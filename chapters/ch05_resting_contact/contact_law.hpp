@@ -41,6 +41,8 @@ class ContactLaw {
   virtual bool looks_at_bends() const { return false; }
   // How much dearer than along normals alone it is to go on from an arrival: piles begin with so many times fewer.
   virtual double arrival_factor() const { return 1; }
+  // Of all impulses on a body, how much may be left where they should cancel.
+  virtual double left() const { return 0; }
   // The sweeps of a pile.
   virtual std::unique_ptr<GaussSeidel> gauss_seidel() const { return std::make_unique<GaussSeidel>(); }
 };

@@ -13,6 +13,7 @@ namespace fc::resting {
 
 struct IslandOptions {
   std::optional<SolverSpec> chosen = {};  // the scene's solver, if it says more than the default: it alone
+  double still = 0;                       // m/s: what is slower stands still
 };
 
 struct IslandResult {

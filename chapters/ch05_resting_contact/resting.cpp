@@ -63,12 +63,14 @@ Resting::Resting(const Scene& scene, world::World& world, double dt, const RestO
       law_(law ? std::move(law) : std::make_unique<NormalLaw>()),
       maker_(contacts_, *law_),
       pile_planner_(contacts_, *law_),
+      standing_(world.bodies.size()),
       options_(options),
       frame_(dt),
       dt_(dt),
       meetings_(world.bodies.size(), 0),
       changes_(world.bodies.size(), 0),
       stilled_(world.bodies.size(), 0),
+      pushed_(world.bodies.size(), 0),
       try_length_(world.bodies.size(), std::numeric_limits<double>::infinity()),
       energy_(world.bodies.size(), 0) {
   const SolverSpec usual;
@@ -77,6 +79,7 @@ Resting::Resting(const Scene& scene, world::World& world, double dt, const RestO
     options_.solver.chosen = solver;
     options_.most_work = std::numeric_limits<double>::infinity();  // piles are solved by sweeps of their own
   }
+  options_.solver.still = kStill * envelope() / dt;
   world.rest_gap = 0.5 * envelope();
 }
 
@@ -87,6 +90,7 @@ RestReport Resting::step(world::World& world, const world::Listeners& listeners)
   std::fill(meetings_.begin(), meetings_.end(), 0);
   std::fill(changes_.begin(), changes_.end(), 0);
   std::fill(stilled_.begin(), stilled_.end(), 0);
+  std::fill(pushed_.begin(), pushed_.end(), 0);
   records_.clear();
   const std::int64_t searched = contacts_.searched();
   world::StepReport report = world::step_with(*this, world, frame_, listeners);
@@ -107,6 +111,7 @@ std::vector<int> Resting::begin(world::World& world, double dt, world::StepRepor
     clash.time += world.part_start;
     report_.clashes.push_back(clash);
   }
+  standing_.begin(world, envelope(), dt);
   plans_.clear();
   free_plans_.clear();
   piles_.begin(world.bodies.size(),
@@ -129,7 +134,7 @@ std::vector<int> Resting::end_plans(world::World& world, double now, world::Step
   Instant instant{world, now, report, listeners};
   for (const Running& plan : plans_)
     if (plan.runs && plan.end <= now)
-      instant.bodies.insert(instant.bodies.end(), plan.what.bodies.begin(), plan.what.bodies.end());
+      instant.bodies.insert(instant.bodies.end(), plan.what->bodies.begin(), plan.what->bodies.end());
   return go_on(std::move(instant));
 }
 
@@ -143,6 +148,17 @@ std::vector<int> Resting::meet(world::World& world, int a, int b, double now, wo
   const auto is_in_pile = [&](int body) { return piles_.of(body) != nullptr; };
   if (std::any_of(instant.bodies.begin(), instant.bodies.end(), is_in_pile)) piles_.unite(instant.bodies);
   return go_on(std::move(instant));
+}
+
+void Resting::add_push(const lcp::Contact& contact, double impulse) {
+  pushed_[at(contact.body_a)] += impulse;
+  pushed_[at(contact.body_b)] += impulse;
+}
+
+// m/s: a body in contact whose points are slower stands still.
+double Resting::still_speed(const world::World& world, int body) const {
+  return kStill * envelope() / dt_ +
+         law_->left() * pushed_[at(body)] * world.bodies[at(body)].state.inverse_mass;
 }
 
 // These bodies, and all that they are in contact with, directly or over others.
@@ -221,18 +237,19 @@ void Resting::end_plan(Instant& instant, int number) {
   Running& plan = plans_[at(number)];
   const double share = (instant.now - plan.start) / (plan.end - plan.start);
   const bool whole = instant.now >= plan.end;
-  for (std::size_t i = 0; i < plan.what.bodies.size(); ++i) {
-    const int member = plan.what.bodies[i];
+  instant.planned = std::max(instant.planned, instant.now - plan.start);
+  for (std::size_t i = 0; i < plan.what->bodies.size(); ++i) {
+    const int member = plan.what->bodies[i];
     world::Body& body = instant.world.bodies[at(member)];
     instant.world.advance_to(member, instant.now, instant.now);
     body.plan = {};
     if (whole) {
-      body.state.velocity += plan.what.arrivals[i].linear;
-      body.state.spin += plan.what.arrivals[i].angular;
+      body.state.velocity += plan.what->arrivals[i].linear;
+      body.state.spin += plan.what->arrivals[i].angular;
     }
     instant.bodies.push_back(member);
   }
-  for (const PlannedRow& row : plan.what.rows) {
+  for (const PlannedRow& row : plan.what->rows) {
     const double end = reported_time(instant.now, dt_);
     const Vec3 acted = whole ? row.impulse : Vec3(share * row.early);
     if (acted.dot(row.contact.normal) > 0) {
@@ -246,27 +263,55 @@ void Resting::end_plan(Instant& instant, int number) {
     instant.listeners.impact(
         record_of(end, row.contact, row.before, row.after, row.back, world::ContactKind::impact));
   }
-  instant.report.kinematic_work += whole ? plan.what.kinematic_work : share * plan.what.early_work;
+  instant.report.kinematic_work += whole ? plan.what->kinematic_work : share * plan.what->early_work;
   plan.runs = false;
   free_plans_.push_back(number);
 }
 
 // The instant's impact law; false if it could not be solved.
 bool Resting::resolve(Instant& instant, Island& island) {
+  if (const auto known = standing_.instant(island)) {
+    report_instant(instant, *known);
+    return true;
+  }
   InstantOptions options;
   options.rest_speed = envelope() / dt_;
   options.time = reported_time(instant.now, dt_);
-  options.guess = 0.5 * dt_;
+  options.guess = instant.planned;
   options.bounces = [&](int body) { return meetings_[at(body)] < kMostBounces; };
   options.solver = options_.solver;
+  const std::vector<Member> before = island.members;
   const InstantResult result = resolve_instant(instant.world, island, envelope(), *law_, options);
   if (!result.solved && options_.solver.chosen)
     throw lcp::unsolved(instant.world.solver, result.status, result.steps, result.residual);
   if (!result.solved) return false;
+  instant.report.solves += result.solves;
+  report_instant(instant, result);
+  for (const world::ImpactRecord& record : result.records)
+    add_push(record.contact, record.impulse.impulse + record.tangential.norm());
+  for (Member& member :
+       island.members) {  // what is left of a velocity in contact that does not move the body
+    if (!member.dynamic) continue;
+    const double reach = reach_of(instant.world, member.number);
+    const double speed = member.state.velocity.norm() + reach * member.state.spin.norm();
+    double& stilled = stilled_[at(member.number)];
+    if (stilled + speed >= still_speed(instant.world, member.number)) continue;
+    stilled += speed;
+    member.state.velocity = member.state.spin = Vec3::Zero();
+  }
+  if (instant.now >= dt_ && !result.impact) standing_.keep(before, island, result);
+  if (result.impact && instant.listeners.instant) {
+    for (const Member& member : island.members)
+      if (member.dynamic) instant.world.set_motion(member.number, member.state, instant.now);
+    instant.listeners.instant(instant.world, instant.now);
+  }
+  return true;
+}
+
+void Resting::report_instant(Instant& instant, const InstantResult& result) {
   world::StepReport& report = instant.report;
   report.contacts += result.contacts;
   report.lcp_rows += result.rows;
-  report.solves += result.solves;
   report.lcp_residual = std::max(report.lcp_residual, result.residual);
   report.kinematic_work += result.kinematic_work;
   report.energy_gain = std::max(report.energy_gain, result.energy_gain);
@@ -281,27 +326,15 @@ bool Resting::resolve(Instant& instant, Island& island) {
       records_.add(record, result.keys[i], true);
     if (impact && instant.listeners.impact) instant.listeners.impact(record);
   }
-  for (Member& member :
-       island.members) {  // what is left of a velocity in contact that does not move the body
-    if (!member.dynamic) continue;
-    const double reach = reach_of(instant.world, member.number);
-    const double speed = member.state.velocity.norm() + reach * member.state.spin.norm();
-    double& stilled = stilled_[at(member.number)];
-    if (dt_ * (stilled + speed) >= kStill * envelope()) continue;
-    stilled += speed;
-    member.state.velocity = member.state.spin = Vec3::Zero();
-  }
-  if (result.impact && instant.listeners.instant) {
-    for (const Member& member : island.members)
-      if (member.dynamic) instant.world.set_motion(member.number, member.state, instant.now);
-    instant.listeners.instant(instant.world, instant.now);
-  }
-  return true;
 }
 
 // A plan for the bodies of the island that are in contact, as long as their paths can be proved, at most to the frame's end;
 // false if there is none.
 bool Resting::plan(Instant& instant, Island& island) {
+  if (const auto known = standing_.plan(island, dt_ - instant.now)) {
+    start(instant, known, dt_);
+    return true;
+  }
   for (const IslandPair& pair : island.pairs)
     for (ContactPoint& point : pair.contacts->points) point.lasts = false;
   const double left = dt_ - instant.now;
@@ -335,7 +368,9 @@ bool Resting::plan(Instant& instant, Island& island) {
     if (result == Result::unsolved || (!meets && length < kShortest * dt_)) return false;
     length = meets ? std::min(maker_.meeting(), 0.999 * length) : 0.5 * length;
   }
-  start(instant, maker_.take(), length == left ? dt_ : instant.now + length);
+  const auto planned = std::make_shared<const Planned>(maker_.take());
+  if (start(instant, planned, length == left ? dt_ : instant.now + length))
+    standing_.keep(island, length, planned);
   return true;
 }
 
@@ -386,14 +421,16 @@ void Resting::go_on(Instant& instant, PileList::Pile& pile) {
   instant.report.lcp_residual = std::max(instant.report.lcp_residual, pile_planner_.residual());
   instant.report.contacts += pile_planner_.rows();
   ++instant.report.solves;
-  start(instant, std::move(planned), length == left ? half : instant.now + length);
+  start(instant, std::make_shared<const Planned>(std::move(planned)),
+        length == left ? half : instant.now + length);
 }
 
-void Resting::start(Instant& instant, Planned&& planned, double end) {
+// Whether nobody moves by it.
+bool Resting::start(Instant& instant, const std::shared_ptr<const Planned>& planned, double end) {
   ++report_.plans;
-  report_.resting += planned.pushing;
-  report_.correction = std::max(report_.correction, planned.correction);
-  if (planned.bodies.empty()) return;
+  report_.resting += planned->pushing;
+  report_.correction = std::max(report_.correction, planned->correction);
+  if (planned->bodies.empty()) return false;
   int number = static_cast<int>(plans_.size());
   if (free_plans_.empty()) {
     plans_.emplace_back();
@@ -401,15 +438,22 @@ void Resting::start(Instant& instant, Planned&& planned, double end) {
     number = free_plans_.back();
     free_plans_.pop_back();
   }
-  for (std::size_t i = 0; i < planned.bodies.size(); ++i) {
-    world::Body& body = instant.world.bodies[at(planned.bodies[i])];
-    body.plan = planned.motions[i];
+  for (const PlannedRow& row : planned->rows) add_push(row.contact, row.impulse.norm());
+  bool stands = true;
+  for (std::size_t i = 0; i < planned->bodies.size(); ++i) {
+    world::Body& body = instant.world.bodies[at(planned->bodies[i])];
+    body.plan = planned->motions[i];
     body.plan.number = number;
-    const double path = dt_ * (body.plan.linear.norm() +
-                               reach_of(instant.world, planned.bodies[i]) * body.plan.angular.norm());
-    if (path < kStill * envelope()) body.plan.linear = body.plan.angular = Vec3::Zero();
+    const double speed =
+        body.plan.linear.norm() + reach_of(instant.world, planned->bodies[i]) * body.plan.angular.norm();
+    if (speed < (planned->correction > 0 ? kStill * envelope() / dt_
+                                         : still_speed(instant.world, planned->bodies[i])))
+      body.plan.linear = body.plan.angular = Vec3::Zero();
+    else
+      stands = false;
   }
-  plans_[at(number)] = {true, instant.now, end, std::move(planned)};
+  plans_[at(number)] = {true, instant.now, end, planned};
+  return stands;
 }
 
 }  // namespace fc::resting

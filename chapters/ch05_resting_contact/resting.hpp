@@ -10,6 +10,7 @@
 #include "ch05_resting_contact/pile.hpp"
 #include "ch05_resting_contact/pile_list.hpp"
 #include "ch05_resting_contact/rest_records.hpp"
+#include "ch05_resting_contact/standing.hpp"
 
 namespace fc::resting {
 
@@ -63,7 +64,7 @@ class Resting : public world::Planner {
   struct Running {  // a plan
     bool runs = false;
     double start = 0, end = 0;
-    Planned what;
+    std::shared_ptr<const Planned> what;
   };
   // An instant, and what is to be reported of it.
   struct Instant {
@@ -73,6 +74,7 @@ class Resting : public world::Planner {
     const world::Listeners& listeners;
     std::vector<int> bodies = {};   // whose plans end; the list grows
     std::vector<int> changed = {};  // that have got another motion
+    double planned = 0;             // s, how long the plans have lasted that end here
     double gained = 0;  // J, by all of them since they got their last, beyond what kinematic bodies did
   };
   std::vector<int> go_on(Instant instant);
@@ -80,17 +82,21 @@ class Resting : public world::Planner {
   void go_on(Instant& instant, PileList::Pile& pile);
   double stand(Instant& instant, std::span<Member> members);
   void set_motions(Instant& instant, std::span<const Member> members, double before, double work);
+  void add_push(const lcp::Contact& contact, double impulse);
+  double still_speed(const world::World& world, int body) const;
   void join_pile(const Island& island, bool must);
   void end_plan(Instant& instant, int number);
   bool resolve(Instant& instant, Island& island);
   bool plan(Instant& instant, Island& island);
-  void start(Instant& instant, Planned&& planned, double end);
+  bool start(Instant& instant, const std::shared_ptr<const Planned>& planned, double end);
+  void report_instant(Instant& instant, const InstantResult& result);
 
   Contacts contacts_;
   IslandFinder islands_;
   std::unique_ptr<ContactLaw> law_;
   PlanMaker maker_;
   PilePlanner pile_planner_;
+  Standing standing_;
   KinematicWatch watch_;
   RestOptions options_;
   double frame_, dt_;  // s, of a frame, and of the part of it at hand
@@ -100,6 +106,7 @@ class Resting : public world::Planner {
   std::vector<int> meetings_;       // of each body, in this frame
   std::vector<int> changes_;        // of its plans, likewise: those that ended because impulses had to change
   std::vector<double> stilled_;     // m/s, that was taken as rest in this frame
+  std::vector<double> pushed_;      // N s, by all impulses of this frame, their sizes added
   std::vector<double> try_length_;  // s, of each body's next plan at most
   std::vector<double> energy_;      // J, of each body when it got its motion, in this frame
   RestReport report_;

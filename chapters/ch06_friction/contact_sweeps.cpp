@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ch06_friction/augmented_lagrangian.hpp"
 #include "ch06_friction/cone.hpp"
 
 namespace fc::friction {
@@ -22,12 +23,6 @@ Eigen::Matrix2d inverse_where_it_moves(const Eigen::Matrix2d& D) {
   for (int k = 0; k < 2; ++k)
     if (const double x = eigen.eigenvalues()[k]; x > kDead * eigen.eigenvalues()[1]) inverse[k] = 1 / x;
   return eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
-}
-
-Mat3 cross_matrix(const Vec3& v) {
-  Mat3 m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
 }
 
 // Friction against d with the blocks' D, of at most `radius`: r_T = -(D + x I)^-1 d, x >= 0 the least with |r_T| <= radius.
@@ -51,62 +46,50 @@ Eigen::Vector2d disc_friction(const Eigen::Matrix2d& D, const Eigen::Vector2d& d
 
 }  // namespace
 
-Mat3 contact_frame(const Vec3& normal) {
-  Mat3 frame;
-  frame.col(0) = normal;
-  frame.col(1) = (std::abs(normal.x()) < 0.6 ? Vec3::UnitX() : Vec3::UnitY()).cross(normal).normalized();
-  frame.col(2) = normal.cross(frame.col(1));
-  return frame;
-}
-
-void ContactSweeps::start(std::span<const RigidBody> bodies) {
+void ContactSweeps::start(std::span<const RigidBody> bodies, double least) {
+  least_ = least;
   blocks_.clear();
   bodies_.clear();
   for (const RigidBody& body : bodies)
-    bodies_.push_back({body.position, body.velocity, body.spin, body.inverse_mass * body.free_moves,
+    bodies_.push_back({body.position, body.velocity, body.spin, body.velocity, body.spin,
+                       body.inverse_mass * body.free_moves,
                        body.is_static() ? Mat3(Mat3::Zero()) : body.inverse_inertia_world()});
 }
 
 void ContactSweeps::add(const lcp::Contact& contact, double mu, const Vec3& offset, const Vec3& impulse) {
-  const Mass &a = bodies_[index(contact.body_a)], &b = bodies_[index(contact.body_b)];
+  const MovedBody &a = bodies_[index(contact.body_a)], &b = bodies_[index(contact.body_b)];
   const Mat3 frame = contact_frame(contact.normal);
   const Vec3 arm_a = contact.turns_a ? Vec3(contact.point - a.place) : Vec3(Vec3::Zero());
   const Vec3 arm_b = contact.turns_b ? Vec3(contact.point - b.place) : Vec3(Vec3::Zero());
-  const auto part = [&](const Mass& mass, const Vec3& arm) -> Mat3 {
+  const auto part = [&](const MovedBody& mass, const Vec3& arm) -> Mat3 {
     const Mat3 turn = cross_matrix(arm);
     return Mat3(mass.move.asDiagonal()) - turn * mass.turn * turn;
   };
   const Mat3 whole = frame.transpose() * (part(a, arm_a) + part(b, arm_b)) * frame;
   const Mat3 delassus = 0.5 * (whole + whole.transpose());
-  Block block{contact.body_a,
-              contact.body_b,
-              frame,
-              arm_a,
-              arm_b,
-              delassus,
-              OneContact(delassus, mu),
-              mu,
-              frame.transpose() * offset,
-              inverse_where_it_moves(delassus.block<2, 2>(1, 1)),
-              project_onto_cone(frame.transpose() * impulse, mu),
-              Vec3::Zero()};
-  block.start = relative_velocity(block) + block.offset;
+  ContactBlock block{contact.body_a,
+                     contact.body_b,
+                     frame,
+                     arm_a,
+                     arm_b,
+                     delassus,
+                     OneContact(delassus, mu),
+                     mu,
+                     frame.transpose() * offset,
+                     inverse_where_it_moves(delassus.block<2, 2>(1, 1)),
+                     project_onto_cone(frame.transpose() * impulse, mu)};
+  block.start = velocity(block);
   blocks_.push_back(block);
 }
 
-Vec3 ContactSweeps::relative_velocity(const Block& block) const {
-  const Mass &a = bodies_[index(block.a)], &b = bodies_[index(block.b)];
-  return block.frame.transpose() *
-         (b.velocity + b.spin.cross(block.arm_b) - a.velocity - a.spin.cross(block.arm_a));
-}
-
-void ContactSweeps::push(const Block& block, const Vec3& impulse) {
-  const Vec3 p = block.frame * impulse;
-  Mass &a = bodies_[index(block.a)], &b = bodies_[index(block.b)];
-  a.velocity -= a.move.cwiseProduct(p);
-  a.spin -= a.turn * block.arm_a.cross(p);
-  b.velocity += b.move.cwiseProduct(p);
-  b.spin += b.turn * block.arm_b.cross(p);
+// Bodies move as they would without impulses, and with those of all contacts.
+void ContactSweeps::apply_impulses() {
+  for (MovedBody& body : bodies_) {
+    body.velocity = body.free_velocity;
+    body.spin = body.free_spin;
+  }
+  for (const ContactBlock& block : blocks_)
+    if (!block.r.isZero(0)) block.push(bodies_, block.r);
 }
 
 // All contacts once; the largest change of an impulse, as a velocity (m/s).
@@ -116,11 +99,11 @@ double ContactSweeps::sweep(bool backwards, double relaxation, const Solve& solv
   double largest = 0;
   for (int k = 0; k < contacts(); ++k) {
     const int i = backwards ? contacts() - 1 - k : k;
-    Block& block = blocks_[index(i)];
-    const Vec3 q = relative_velocity(block) + block.offset - block.delassus * block.r;  // if it did nothing
+    ContactBlock& block = blocks_[index(i)];
+    const Vec3 q = velocity(block) - block.delassus * block.r;  // if it did nothing
     const Vec3 change = relaxation * (solve(i, block, q) - block.r);
     if (change.isZero(0)) continue;
-    push(block, change);
+    block.push(bodies_, change);
     block.r += change;
     largest = std::max(largest, (block.delassus * change).norm());
   }
@@ -129,9 +112,9 @@ double ContactSweeps::sweep(bool backwards, double relaxation, const Solve& solv
 // ANCHOR_END: sweep
 
 double ContactSweeps::largest_velocity() const {
-  double largest = 0;
-  for (const Block& block : blocks_) {
-    const Vec3 now = relative_velocity(block) + block.offset;
+  double largest = least_;
+  for (const ContactBlock& block : blocks_) {
+    const Vec3 now = velocity(block);
     largest = std::max({largest, block.start.norm(), (now - block.start).norm()});
   }
   return largest;
@@ -139,8 +122,7 @@ double ContactSweeps::largest_velocity() const {
 
 template <class Solve>
 void ContactSweeps::run(int most, double tolerance, const Solve& solve) {
-  for (const Block& block : blocks_)
-    if (!block.r.isZero(0)) push(block, block.r);
+  apply_impulses();
   double relaxation = 1, best = std::numeric_limits<double>::infinity(), before = best;
   const double enough = tolerance * largest_velocity();
   for (int k = 0; k < most; ++k) {
@@ -154,13 +136,13 @@ void ContactSweeps::run(int most, double tolerance, const Solve& solve) {
 }
 
 double ContactSweeps::run(int most, double tolerance) {
-  run(most, tolerance, [](int, const Block& block, const Vec3& q) { return block.one.solve(q); });
+  run(most, tolerance, [](int, const ContactBlock& block, const Vec3& q) { return block.one.solve(q); });
   return residual();
 }
 
 // ANCHOR: held
 double ContactSweeps::run_held(std::span<const char> holds, int most, double tolerance) {
-  run(most, tolerance, [&](int i, const Block& block, const Vec3& q) -> Vec3 {
+  run(most, tolerance, [&](int i, const ContactBlock& block, const Vec3& q) -> Vec3 {
     const double a = block.delassus(0, 0);
     if (!holds[index(i)]) return {a > 0 ? std::max(0.0, -q[0] / a) : 0.0, 0, 0};
     // The tangents' velocity is that at the start, whatever the normal impulse.
@@ -171,20 +153,40 @@ double ContactSweeps::run_held(std::span<const char> holds, int most, double tol
     const Eigen::Vector2d tangent = -(block.inverse * (still + normal * c));
     return {normal, tangent[0], tangent[1]};
   });
+  return held_residual(holds);
+}
+// ANCHOR_END: held
+
+double ContactSweeps::held_residual(std::span<const char> holds) const {
   double worst = 0;
   for (int i = 0; i < contacts(); ++i) {
-    const Block& block = blocks_[index(i)];
-    const Vec3 u = relative_velocity(block) + block.offset;
+    const ContactBlock& block = blocks_[index(i)];
+    const Vec3 u = velocity(block);
     worst = std::max(worst, std::abs(std::min(block.delassus(0, 0) * block.r[0], u[0])));
     if (holds[index(i)]) worst = std::max(worst, (u - block.start).tail<2>().norm());
   }
   const double largest = largest_velocity();
   return largest > 0 ? worst / largest : 0;
 }
-// ANCHOR_END: held
+
+double ContactSweeps::run_together(int most, double enough) {
+  return AugmentedLagrangian(bodies_, blocks_).run(most, enough, [&] {
+    apply_impulses();
+    return residual();
+  });
+}
+
+double ContactSweeps::run_held_together(std::span<const char> holds, int most, double enough) {
+  AugmentedLagrangian method(bodies_, blocks_);
+  method.hold(holds);
+  return method.run(most, enough, [&] {
+    apply_impulses();
+    return held_residual(holds);
+  });
+}
 
 void ContactSweeps::run_discs(std::span<const double> normals, int most, double tolerance) {
-  run(most, tolerance, [&](int i, const Block& block, const Vec3& q) -> Vec3 {
+  run(most, tolerance, [&](int i, const ContactBlock& block, const Vec3& q) -> Vec3 {
     const double normal = normals[index(i)];
     const Eigen::Vector2d d = q.tail<2>() + normal * block.delassus.block<2, 1>(1, 0);
     const Eigen::Vector2d tangent = disc_friction(block.delassus.block<2, 2>(1, 1), d, block.mu * normal);
@@ -194,8 +196,8 @@ void ContactSweeps::run_discs(std::span<const double> normals, int most, double 
 
 double ContactSweeps::residual() const {
   double worst = 0;
-  for (const Block& block : blocks_) {
-    const Vec3 u = relative_velocity(block) + block.offset;
+  for (const ContactBlock& block : blocks_) {
+    const Vec3 u = velocity(block);
     const double size = block.delassus.cwiseAbs().maxCoeff();
     if (size > 0) worst = std::max(worst, cone_violation(block.r, u, block.mu, size));
   }

@@ -5,19 +5,16 @@
 #include <span>
 #include <vector>
 
-#include "ch03_impulse_lcp/contact.hpp"
-#include "ch06_friction/one_contact.hpp"
+#include "ch06_friction/contact_block.hpp"
 
 namespace fc::friction {
-
-// The columns: a contact's normal (unit) and two tangents. Nothing depends on which: each contact is solved exactly.
-Mat3 contact_frame(const Vec3& normal);
 
 // Three lines a contact, one where there is no friction. Velocities of bodies are those with all impulses.
 class ContactSweeps {
  public:
   // Bodies as they are without impulses (their velocities: without a correction, u = J v + offset).
-  void start(std::span<const RigidBody> bodies);
+  // least: m/s, the largest velocity in the problem counts as no less.
+  void start(std::span<const RigidBody> bodies, double least = 0);
   // Adds a contact: mu >= 0; offset: m/s, world, what is added to its velocity: along the normal with how much it may close in.
   // impulse: N s, world, on B, a guess.
   void add(const lcp::Contact& contact, double mu, const Vec3& offset, const Vec3& impulse);
@@ -29,6 +26,9 @@ class ContactSweeps {
   // Normal impulses as without friction; contacts with holds[i] do not move along their tangents. The worst of what is left of both,
   // over the largest velocity without impulses or due to them.
   double run_held(std::span<const char> holds, int most, double tolerance);
+  // Both by the matrix of the bodies, see augmented_lagrangian.hpp, from what was reached: at most so many rounds, down to a residual.
+  double run_together(int most, double enough);
+  double run_held_together(std::span<const char> holds, int most, double enough);
   // Normal impulses as given (N s); friction is of at most mu times these.
   void run_discs(std::span<const double> normals, int most, double tolerance);
 
@@ -40,35 +40,20 @@ class ContactSweeps {
   }  // N s, world, on B
 
  private:
-  struct Mass {
-    Vec3 place, velocity, spin;
-    Vec3 move;  // 1/kg along each axis that is free
-    Mat3 turn;  // 1/(kg m^2)
-  };
-  struct Block {
-    int a, b;
-    Mat3 frame;         // columns: normal, two tangents
-    Vec3 arm_a, arm_b;  // m; zero on a body that is not turned
-    Mat3 delassus;      // 1/kg, in the frame
-    OneContact one;
-    double mu;
-    Vec3 offset;  // m/s, in the frame
-    Eigen::Matrix2d inverse =
-        Eigen::Matrix2d::Zero();  // kg, of the tangents' part of delassus, where it is not zero
-    Vec3 r = Vec3::Zero();        // N s, in the frame
-    Vec3 start;                   // m/s, u without impulses
-  };
-  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
-  Vec3 relative_velocity(const Block& block) const;  // m/s, in the frame
-  void push(const Block& block, const Vec3& impulse);
+  Vec3 velocity(const ContactBlock& block) const {
+    return block.relative_velocity(bodies_) + block.offset;
+  }  // m/s, in the frame
+  void apply_impulses();
+  double held_residual(std::span<const char> holds) const;
   template <class Solve>
   double sweep(bool backwards, double relaxation, const Solve& solve);
   template <class Solve>
   void run(int most, double tolerance, const Solve& solve);
   double largest_velocity() const;
 
-  std::vector<Mass> bodies_;
-  std::vector<Block> blocks_;
+  double least_ = 0;
+  std::vector<MovedBody> bodies_;
+  std::vector<ContactBlock> blocks_;
 };
 
 }  // namespace fc::friction

@@ -11,14 +11,26 @@ namespace {
 
 using resting::at;
 
-// Sweeps until impulses change by less than the first, of the largest velocity. Then the residuals that are wanted of few
-// contacts, and of more; above the last two islands are not solved.
-constexpr double kTolerance = 1e-14, kExact = 1e-12, kGood = 1e-8, kAcceptedOfFew = 1e-6, kAccepted = 1e-4;
-constexpr int kByTurns[] = {40, 50, 100, 200, 400}, kManySweeps = 600;
-// Contacts of which Newton's method is quicker than sweeps; of which it is tried at all; of which all methods are tried
-// in turn, so many times in a frame (of more once); and among which plans end where a slip ends.
-constexpr int kNewtonSteps = 15, kMostDear = 6;
-constexpr int kFew = 32, kMostOfMatrix = 250, kMostInTurn = 60, kFewSlips = 16;
+// Sweeps until impulses change by less than this, of the largest velocity.
+constexpr double kTolerance = 1e-14;
+
+// Sweeps, then all contacts together, in turns: with what residual each is content, of few contacts and of more. All
+// together try for less.
+struct Turn {
+  int sweeps;
+  double enough_of_few, enough;
+  bool again = true;
+};
+constexpr Turn kTurns[] = {{40, 1e-12, 1e-10, false}, {100, 1e-10, 1e-9}, {400, 1e-8, 1e-8}};
+constexpr double kWanted = 1e-12;
+// What stands still, slower than which nothing counts: what is left of it may be this part.
+constexpr double kNear = 1e-5;
+constexpr double kOfStill = 0.1;
+constexpr int kRounds = 20, kManySweeps = 600, kSweepsHeld = 100;
+// Above these residuals islands are not solved: of few contacts, and of more.
+constexpr double kAcceptedOfFew = 1e-6, kAccepted = 1e-4;
+constexpr int kMostDear = 6;
+constexpr int kFewest = 12, kFew = 32, kMostOfMatrix = 250, kMostInTurn = 60, kFewSlips = 16;
 
 constexpr double kHeld = 1e-7;  // of the largest velocity, of corrections
 
@@ -58,16 +70,11 @@ bool CoulombLaw::rubs(const ContactSet& set) {
   return std::any_of(mu_.begin(), mu_.end(), [](double m) { return m > 0; });
 }
 
-void CoulombLaw::start(const ContactSet& set, std::span<const Vec3> offsets, std::span<const Vec3> impulses) {
-  sweeps_.start(set.bodies);
+void CoulombLaw::start(const ContactSet& set, std::span<const Vec3> offsets, std::span<const Vec3> impulses,
+                       double still) {
+  sweeps_.start(set.bodies, kOfStill * still / kTurns[0].enough);
   for (std::size_t i = 0; i < set.contacts.size(); ++i)
     sweeps_.add(set.contacts[i], mu_[i], offsets[i], impulses[i]);
-}
-
-void CoulombLaw::sweep(const ContactSet& set, int most, std::span<Vec3> impulses, IslandResult& result) {
-  start(set, offsets_, impulses);
-  result.residual = sweeps_.run(most, kTolerance);
-  for (std::size_t i = 0; i < impulses.size(); ++i) impulses[i] = sweeps_.impulse(static_cast<int>(i));
 }
 
 // ANCHOR: push
@@ -82,14 +89,21 @@ IslandResult CoulombLaw::push(const ContactSet& set, std::span<const double> lim
   IslandResult result;
   result.residual = std::numeric_limits<double>::infinity();
   const std::size_t count = set.contacts.size();
-  const bool few = count <= kFew;
-  const double enough = few ? kExact : kGood, accepted = few ? kAcceptedOfFew : kAccepted;
-  for (const int sweeps : kByTurns) {  // each end of some sweeps is another start for Newton's method
-    if (result.residual <= enough) break;
-    sweep(set, sweeps, impulses, result);
-    const bool tries =
-        count <= kFew || (count <= kMostOfMatrix && (sweeps == kByTurns[0] || sweeps == kByTurns[4]));
-    if (result.residual > enough && tries) solve_by_matrix(set, Method::newton, impulses, result);
+  const double accepted = count <= kFew ? kAcceptedOfFew : kAccepted;
+  start(set, offsets_, impulses, options.still);
+  double& left = result.residual;
+  const auto take = [&](double residual) {
+    if (residual > left) return;
+    left = residual;
+    for (std::size_t i = 0; i < count; ++i) impulses[i] = sweeps_.impulse(static_cast<int>(i));
+  };
+  if (count > kFew) take(sweeps_.run(0, kTolerance));  // the guess may be good
+  for (const Turn& turn : kTurns) {  // each end of some sweeps is another start for the others
+    const double enough = count > kFew ? turn.enough : turn.enough_of_few;
+    if (left > kNear || turn.again) take(sweeps_.run(turn.sweeps, kTolerance));
+    if (left > enough && count <= kFewest) solve_by_matrix(set, Method::newton, impulses, result);
+    if (left > enough) take(sweeps_.run_together(kRounds, kWanted));
+    if (left <= enough) break;
   }
   if (result.residual > accepted && (count <= kFew || ++dear_ <= (count <= kMostInTurn ? kMostDear : 1)) &&
       count <= kMostOfMatrix)
@@ -126,8 +140,7 @@ void CoulombLaw::solve_by_matrix(const ContactSet& set, Method method, std::span
   const lcp::ImpactProblem problem = lcp::assemble(set.bodies, rows);
   const VecX b = problem.v_before + offset, mu = Eigen::Map<const VecX>(mu_.data(), n);
   const ConeResult found =
-      solve(ConeProblem{problem.A, b, mu}, method,
-            {.limit = method == Method::newton ? kNewtonSteps : 0, .tolerance = kExact, .start = &guess});
+      solve(ConeProblem{problem.A, b, mu}, method, {.tolerance = kWanted, .start = &guess});
   if (!found.r.allFinite() || found.residual > result.residual) return;
   result.residual = found.residual;
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -144,9 +157,10 @@ IslandResult CoulombLaw::correct(const ContactSet& set, std::span<const double> 
   for (std::size_t i = 0; i < impulses.size(); ++i) guesses.push_back(impulses[i] * set.contacts[i].normal);
   std::vector<Vec3> offsets;
   for (std::size_t i = 0; i < limits.size(); ++i) offsets.push_back(limits[i] * set.contacts[i].normal);
-  start(set, offsets, guesses);
+  start(set, offsets, guesses, options.still);
   IslandResult result;
-  result.residual = sweeps_.run_held(holds_, kManySweeps, kHeld);
+  result.residual = sweeps_.run_held(holds_, kSweepsHeld, kHeld);
+  if (result.residual > kHeld) result.residual = sweeps_.run_held_together(holds_, kRounds, kHeld);
   result.solved = result.residual <= 1e-3;
   if (!result.solved) return result;
   result.status = lcp::Status::solved;
@@ -162,7 +176,7 @@ IslandResult CoulombLaw::correct(const ContactSet& set, std::span<const double> 
 void CoulombLaw::give_back(const ContactSet& set, std::span<const double> normals, std::span<Vec3> total) {
   if (!rubs(set)) return NormalLaw::give_back(set, normals, total);
   const std::vector<Vec3> none(normals.size(), Vec3::Zero());
-  start(set, none, none);
+  start(set, none, none, 0);
   sweeps_.run_discs(normals, kManySweeps, kTolerance);
   for (std::size_t i = 0; i < normals.size(); ++i) {
     const Vec3 impulse = sweeps_.impulse(static_cast<int>(i));

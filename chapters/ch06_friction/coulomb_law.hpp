@@ -32,6 +32,7 @@ class CoulombLaw : public resting::NormalLaw {
   void give_back(const ContactSet& set, std::span<const double> normals, std::span<Vec3> total) override;
   bool looks_at_bends() const override { return true; }
   double arrival_factor() const override { return 30; }
+  double left() const override { return 3e-11; }
   std::unique_ptr<resting::GaussSeidel> gauss_seidel() const override;
   // Until the first contact that slides comes to rest.
   double holds_until(const ContactSet& mean, std::span<const RigidBody> now, std::span<const Vec3> impulses,
@@ -40,8 +41,8 @@ class CoulombLaw : public resting::NormalLaw {
  private:
   double mu(const ContactSet& set, const lcp::Contact& contact) const;
   bool rubs(const ContactSet& set);
-  void start(const ContactSet& set, std::span<const Vec3> offsets, std::span<const Vec3> impulses);
-  void sweep(const ContactSet& set, int most, std::span<Vec3> impulses, IslandResult& result);
+  void start(const ContactSet& set, std::span<const Vec3> offsets, std::span<const Vec3> impulses,
+             double still);
   void solve_by_matrix(const ContactSet& set, Method method, std::span<Vec3> impulses, IslandResult& result);
 
   const world::World& world_;

@@ -1,0 +1,222 @@
+#include "ch06_friction/augmented_lagrangian.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "ch06_friction/cone.hpp"
+
+namespace fc::friction {
+namespace {
+
+// ρ over the trace of a contact's block: of the first round, by what is left before it, and of later ones. Beyond the last, round-off
+// of velocities becomes one of impulses.
+constexpr double kFirst = 0.1, kSoftest = 10, kStiffer = 10, kStiff = 1e5, kStiffest = 1e8, kSlow = 0.3;
+
+constexpr int kSteps = 20;          // of Newton's method in a round
+constexpr double kMinimal = 1e-14;  // of φ, that a step may still gain
+
+// A line search: what part of the slope a step must gain, and how short it may become. Round-off of φ is no loss.
+constexpr double kArmijo = 1e-4, kShortestStep = 1e-3, kRounding = 1e-13;
+
+// Rounds without end: what is left must be halved within so many.
+constexpr int kIdleRounds = 6;
+
+// Of a change of the shifts, which the next takes up with this factor: from where to where it is extrapolated.
+constexpr double kSame = 0.05, kGrows = 0.95;
+
+}  // namespace
+
+AugmentedLagrangian::AugmentedLagrangian(std::span<const MovedBody> bodies, std::span<ContactBlock> blocks)
+    : blocks_(blocks), shift_(blocks.size(), 0), shift_change_(blocks.size(), 0) {
+  std::vector<int> place(bodies.size(), -1);
+  std::vector<Mat3> turn_root(bodies.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (!bodies[i].moves()) continue;
+    place[i] = size_++;
+    turn_root[i] = Eigen::SelfAdjointEigenSolver<Mat3>(bodies[i].turn).operatorSqrt();
+  }
+  const auto part = [&](int body, const Mat3& frame, const Vec3& arm, double sign) {
+    Mat36 g = Mat36::Zero();
+    if (place[index(body)] < 0) return g;
+    g.leftCols<3>() = sign * frame.transpose() * bodies[index(body)].move.cwiseSqrt().asDiagonal();
+    g.rightCols<3>() = -sign * frame.transpose() * cross_matrix(arm) * turn_root[index(body)];
+    return g;
+  };
+  for (const ContactBlock& block : blocks) {
+    place_a_.push_back(place[index(block.a)]);
+    place_b_.push_back(place[index(block.b)]);
+    a_.push_back(part(block.a, block.frame, block.arm_a, -1));
+    b_.push_back(part(block.b, block.frame, block.arm_b, 1));
+    guess_.push_back(block.r);
+  }
+  stiffness_.resize(blocks.size());
+}
+
+// ANCHOR: cone_piece
+AugmentedLagrangian::Piece AugmentedLagrangian::piece(std::size_t k, const Vec3& x) const {
+  const double mu = blocks_[k].mu;
+  Piece result;
+  if (!holds_.empty()) {  // normals push, tangents do what they must
+    const double push = x[0] > 0, hold = holds_[k] != 0;
+    result.D.diagonal() << push, hold, hold;
+    result.impulse = result.D * x;
+    return result;
+  }
+  const double slip = std::hypot(x[1], x[2]);
+  if (mu * slip <= -x[0]) return result;  // open
+  if (mu > 0 && slip <= mu * x[0]) {      // sticks
+    result.D.setIdentity();
+    result.impulse = x;
+    return result;
+  }
+  result.impulse = project_onto_cone(x, mu);  // slides
+  if (slip == 0) {
+    result.D(0, 0) = 1;
+    return result;
+  }
+  const Eigen::Vector2d along = x.tail<2>() / slip, across(-along.y(), along.x());
+  const Vec3 edge = Vec3(1, mu * along.x(), mu * along.y()) / std::hypot(1, mu);
+  result.D = edge * edge.transpose();
+  result.D.block<2, 2>(1, 1) += mu * result.impulse[0] / slip * across * across.transpose();
+  return result;
+}
+// ANCHOR_END: cone_piece
+
+// u(y), m/s; tangents that are held: what they have moved.
+Vec3 AugmentedLagrangian::velocity(std::size_t k, const VecX& y) const {
+  Vec3 u = blocks_[k].start;
+  if (!holds_.empty()) u.tail<2>().setZero();
+  if (place_a_[k] >= 0) u += a_[k] * y.segment<6>(6 * place_a_[k]);
+  if (place_b_[k] >= 0) u += b_[k] * y.segment<6>(6 * place_b_[k]);
+  return u;
+}
+
+Vec3 AugmentedLagrangian::argument(std::size_t k, const VecX& y) const {
+  return guess_[k] - stiffness_[k] * (velocity(k, y) + Vec3(shift_[k], 0, 0));
+}
+
+void AugmentedLagrangian::add_impulse(std::size_t k, const Vec3& r, VecX& y) const {
+  if (place_a_[k] >= 0) y.segment<6>(6 * place_a_[k]) += a_[k].transpose() * r;
+  if (place_b_[k] >= 0) y.segment<6>(6 * place_b_[k]) += b_[k].transpose() * r;
+}
+
+double AugmentedLagrangian::value(const VecX& y) const {
+  double sum = y.squaredNorm();
+  for (std::size_t k = 0; k < blocks_.size(); ++k)
+    sum += piece(k, argument(k, y)).impulse.squaredNorm() / stiffness_[k];
+  return 0.5 * sum;
+}
+
+// The gradient of φ at y; its second derivative is factored.
+VecX AugmentedLagrangian::linearise(const VecX& y) {
+  entries_.clear();
+  for (int i = 0; i < 6 * size_; ++i) entries_.emplace_back(i, i, 1.0);
+  const auto add = [&](int i, int j, const Mat6& block) {
+    for (int column = 0; column < 6; ++column)
+      for (int row = i == j ? column : 0; row < 6; ++row)
+        entries_.emplace_back(6 * i + row, 6 * j + column, block(row, column));
+  };
+  VecX gradient = y;
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    const Piece p = piece(k, argument(k, y));
+    add_impulse(k, -p.impulse, gradient);
+    const int a = place_a_[k], b = place_b_[k];
+    const Mat36 of_a = stiffness_[k] * p.D * a_[k], of_b = stiffness_[k] * p.D * b_[k];
+    // What is zero counts, too: the matrix has the same places each time, and is ordered once.
+    if (a >= 0) add(a, a, a_[k].transpose() * of_a);
+    if (b >= 0) add(b, b, b_[k].transpose() * of_b);
+    if (a > b && b >= 0) add(a, b, a_[k].transpose() * of_b);
+    if (b > a && a >= 0) add(b, a, b_[k].transpose() * of_a);
+  }
+  matrix_.resize(6 * size_, 6 * size_);
+  matrix_.setFromTriplets(entries_.begin(), entries_.end());
+  if (steps_++ == 0) factor_.analyzePattern(matrix_);
+  factor_.factorize(matrix_);
+  return gradient;
+}
+
+// ANCHOR: minimise
+void AugmentedLagrangian::minimise(VecX& y) {
+  double phi = value(y), last = 1e300;
+  for (int step = 0; step < kSteps; ++step) {
+    const VecX gradient = linearise(y), change = -factor_.solve(gradient);
+    const double slope = gradient.dot(change);  // < 0
+    if (!(-slope > minimal_ * phi) || (-slope > 0.25 * last && -slope < 1e-15 * phi)) return;
+    last = -slope;
+    double part = 1, next = value(y + change);
+    while (next > phi + kArmijo * part * slope + kRounding * phi && part > kShortestStep) {
+      part *= 0.5;
+      next = value(y + part * change);
+    }
+    y += part * change;
+    phi = next;
+  }
+}
+// ANCHOR_END: minimise
+
+// s from the velocities; every second time extrapolated, if it follows its last change by the same factor.
+void AugmentedLagrangian::shift(const VecX& y, int round) {
+  if (!holds_.empty()) return;
+  double product = 0, size = 0;
+  std::vector<double> next(blocks_.size());
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    next[k] = blocks_[k].mu * velocity(k, y).tail<2>().norm();
+    product += (next[k] - shift_[k]) * shift_change_[k];
+    size += shift_change_[k] * shift_change_[k];
+  }
+  const double factor = size > 0 ? product / size : 0;
+  jumped_ = round > 1 && !jumped_ && std::abs(factor) > kSame && factor < kGrows;
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    shift_change_[k] = next[k] - shift_[k];
+    shift_[k] = jumped_ ? std::max(0.0, next[k] + factor / (1 - factor) * shift_change_[k]) : next[k];
+  }
+}
+
+// ANCHOR: rounds
+double AugmentedLagrangian::run(int most, double enough, const std::function<double()>& left) {
+  double best = left(), halved = best, before = best;
+  double stiff = std::clamp(kFirst / best, kSoftest, kStiff);
+  std::vector<Vec3> best_r = guess_;
+  VecX y(6 * size_);
+  double stiffest = kStiffest;
+  int patience = kIdleRounds;
+  for (int round = 0; round < most && best > enough && patience > 0; ++round) {
+    y.setZero();
+    for (std::size_t k = 0; k < blocks_.size(); ++k) {
+      add_impulse(k, guess_[k], y);
+      const double size = blocks_[k].delassus.trace();
+      stiffness_[k] = size > 0 ? stiff / size : 1;
+    }
+    minimal_ = kMinimal / (stiff * stiff);
+    shift(y, round);
+    minimise(y);
+    for (std::size_t k = 0; k < blocks_.size(); ++k)
+      blocks_[k].r = guess_[k] = piece(k, argument(k, y)).impulse;
+    const double now = left();
+    if (now < best) {
+      best = now;
+      best_r = guess_;
+    }
+    --patience;
+    if (best < 0.5 * halved) {
+      halved = best;
+      patience = kIdleRounds;
+    }
+    if (now > before && stiff >= kStiff) {  // round-off
+      stiffest = stiff / kStiffer;
+      stiff = std::min(kStiff, stiffest);
+      guess_ = best_r;
+      std::fill(shift_change_.begin(), shift_change_.end(), 0);
+    } else if (stiff < kStiff || (now > kSlow * before && stiff < stiffest)) {
+      stiff *= kStiffer;
+    }
+    before = now;
+  }
+  for (std::size_t k = 0; k < blocks_.size(); ++k) blocks_[k].r = best_r[k];
+  return left();
+}
+// ANCHOR_END: rounds
+
+}  // namespace fc::friction

@@ -1,0 +1,70 @@
+// All contacts of an island at once, by a matrix of its bodies: for what stands, where one contact after the other takes
+// thousands of sweeps.
+//
+// If the shifts s = µ|u_T| of the law K* ∋ u + s n ⟂ r ∈ K were known, r would minimise a convex function, and v would be the
+// minimum of another: its augmented Lagrangian (Hestenes 1969, Powell 1969; Rockafellar 1976). From a guess r̄, with a stiffness ρ
+// of each contact (kg),
+//
+//     φ(y) = ½ |y|² + Σ |P_K(r̄ - ρ (u(y) + s n))|² / 2ρ,    u(y) = u_0 + G y,   G = J L,   M⁻¹ = L L',
+//
+// where y is what impulses change of the bodies' velocities, scaled by their masses. At the minimum y = G'r with r = P_K(...):
+// these r are the next r̄. ρ need not be infinite: what is left of the law shrinks by 1/(1 + ρλ) each time, λ an eigenvalue of
+// J M⁻¹ J'. And since I + G' ρ D G is positive definite, however many contacts are redundant, nobody has to find out which.
+// The minimum is Newton's method's, with a line search; P_K has derivatives (D) where the state does not change.
+// s is that of the last u, as in Cadoux's fixed point (2009), made faster by Aitken's rule.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include <Eigen/SparseCholesky>
+
+#include "ch06_friction/contact_block.hpp"
+
+namespace fc::friction {
+
+class AugmentedLagrangian {
+ public:
+  // Starts from the blocks' r, and changes these alone. Both must outlive it.
+  AugmentedLagrangian(std::span<const MovedBody> bodies, std::span<ContactBlock> blocks);
+
+  // What is wanted of each contact: Coulomb's law; or
+  // normal impulses as without friction, and tangents that do not move: of contacts with holds[i].
+  void hold(std::span<const char> holds) { holds_ = holds; }
+
+  // At most so many rounds. left: what the blocks' r leave of the law, from 0 on; rounds go on until that is `enough`, or does not
+  // get less any more. The blocks have the best r; returns what it leaves.
+  double run(int most, double enough, const std::function<double()>& left);
+  int steps() const { return steps_; }  // of Newton's method, so far: each with a factorisation
+
+ private:
+  using Mat36 = Eigen::Matrix<double, 3, 6>;
+  using Mat6 = Eigen::Matrix<double, 6, 6>;
+  struct Piece {  // P_K and its derivative
+    Vec3 impulse = Vec3::Zero();
+    Mat3 D = Mat3::Zero();
+  };
+  Piece piece(std::size_t k, const Vec3& x) const;
+  Vec3 velocity(std::size_t k, const VecX& y) const;
+  Vec3 argument(std::size_t k, const VecX& y) const;
+  void add_impulse(std::size_t k, const Vec3& r, VecX& y) const;
+  double value(const VecX& y) const;
+  VecX linearise(const VecX& y);
+  void minimise(VecX& y);
+  void shift(const VecX& y, int round);
+
+  std::span<ContactBlock> blocks_;
+  std::span<const char> holds_;
+  std::vector<int> place_a_, place_b_;  // of each block's bodies among those that move, or -1
+  std::vector<Mat36> a_, b_;            // G's parts
+  std::vector<Vec3> guess_;             // r̄
+  std::vector<double> stiffness_, shift_, shift_change_;
+  double minimal_ = 0;
+  bool jumped_ = false;
+  int size_ = 0, steps_ = 0;
+  std::vector<Eigen::Triplet<double>> entries_;
+  Eigen::SparseMatrix<double> matrix_;  // the lower half of I + G' ρ D G
+  Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> factor_;
+};
+
+}  // namespace fc::friction
