@@ -68,7 +68,8 @@ Island IslandFinder::grow(const world::World& world, int body, const std::vector
 }
 
 std::vector<std::vector<int>> find_piles(const world::World& world, Contacts& contacts, double dt,
-                                         double most_work, double arrival_factor) {
+                                         double most_work,
+                                         const std::function<double(double, int)>& event_work) {
   const std::size_t count = world.bodies.size();
   std::vector<int> parent(count), arrivals(count, 0), points(count, 0);
   std::iota(parent.begin(), parent.end(), 0);
@@ -93,6 +94,7 @@ std::vector<std::vector<int>> find_piles(const world::World& world, Contacts& co
       arrivals[at(low)] += arrivals[at(high)];
       points[at(low)] += points[at(high)];
     }
+    if (!pair.known) contacts.update(world, pair, first.pose(), second.pose());
     const int known = pair.rank();
     if (known == 0 || pair.gap > contacts.margin())
       ++arrivals[at(low)];
@@ -103,7 +105,7 @@ std::vector<std::vector<int>> find_piles(const world::World& world, Contacts& co
   std::vector<int> pile_of(count, -1);
   for (int body = 0; body < static_cast<int>(count); ++body) {
     const auto first = at(root(body));
-    if (event_work(arrival_factor * arrivals[first], points[first]) <= most_work) continue;
+    if (event_work(arrivals[first], points[first]) <= most_work) continue;
     if (pile_of[first] < 0) {
       pile_of[first] = static_cast<int>(piles.size());
       piles.emplace_back();

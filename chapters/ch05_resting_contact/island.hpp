@@ -1,6 +1,7 @@
 // An island: bodies in contact with each other, directly or over others, at one instant.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "ch05_resting_contact/contacts.hpp"
@@ -64,16 +65,10 @@ class IslandFinder {
   std::vector<int> others_;
 };
 
-// How much work it would be to follow bodies from event to event: with so many pairs of which each may come into contact, and
-// so many contact points that can push at once.
-inline double event_work(double arrivals, int rank) {
-  const double rows = 8 + rank;
-  return (1 + arrivals) * rows * rows;
-}
-
 // Groups of bodies that are in contact, or may come into contact with each other within dt seconds from a frame's start on,
-// that would be more than `most_work`; an arrival counts `arrival_factor` times. Their boxes are in the schedule.
+// that would be too much work: event_work(arrivals, rank). Their boxes are in the schedule.
 std::vector<std::vector<int>> find_piles(const world::World& world, Contacts& contacts, double dt,
-                                         double most_work, double arrival_factor);
+                                         double most_work,
+                                         const std::function<double(double, int)>& event_work);
 
 }  // namespace fc::resting

@@ -33,6 +33,8 @@ constexpr int kMostProofs = 4;          // rounds in which unproved pairs become
 constexpr int kMostRounds = 8;          // in which the paths' ends are looked at again
 constexpr double kNearlyClosed = 1e-2;  // else a shorter plan is made
 constexpr double kClosed = 1e-6;        // of the margin: how exactly contacts close at the plan's end
+constexpr double kCloseEnough = 1e-4;   // and if that has taken
+constexpr int kPatientRounds = 4;       // so many rounds
 
 // Whether a pair that bounces comes in fast: it is in the margin, but there is room left.
 bool comes_in_fast(const IslandPair& pair, std::span<const Member> members, double rest_speed,
@@ -257,7 +259,7 @@ PlanMaker::Result PlanMaker::close_ends() {
       worst = std::max(worst, courses_.length() * (bend_of_slip - row.slip_bend).norm());
       row.slip_bend = bend_of_slip;
     }
-    if (worst <= kClosed * contacts_.margin()) break;
+    if (worst <= (round < kPatientRounds ? kClosed : kCloseEnough) * contacts_.margin()) break;
   }
   return worst <= kNearlyClosed * contacts_.margin() ? Result::proved : Result::unproved;
 }

@@ -1,6 +1,7 @@
 #include "ch05_resting_contact/resting.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "ch03_impulse_lcp/unsolved.hpp"
@@ -63,6 +64,7 @@ Resting::Resting(const Scene& scene, world::World& world, double dt, const RestO
       law_(law ? std::move(law) : std::make_unique<NormalLaw>()),
       maker_(contacts_, *law_),
       pile_planner_(contacts_, *law_),
+      budget_(world.bodies.size()),
       standing_(world.bodies.size()),
       options_(options),
       frame_(dt),
@@ -87,6 +89,7 @@ RestReport Resting::step(world::World& world, const world::Listeners& listeners)
   report_ = {};
   contacts_.next_frame();
   law_->next_frame();
+  budget_.next_frame();
   std::fill(meetings_.begin(), meetings_.end(), 0);
   std::fill(changes_.begin(), changes_.end(), 0);
   std::fill(stilled_.begin(), stilled_.end(), 0);
@@ -115,7 +118,8 @@ std::vector<int> Resting::begin(world::World& world, double dt, world::StepRepor
   plans_.clear();
   free_plans_.clear();
   piles_.begin(world.bodies.size(),
-               find_piles(world, contacts_, dt, options_.most_work, law_->arrival_factor()));
+               find_piles(world, contacts_, dt, options_.most_work,
+                          [&](double arrivals, int rank) { return law_->event_work(arrivals, rank); }));
   Instant instant{world, 0, report, listeners};
   for (int body = 0; body < static_cast<int>(world.bodies.size()); ++body)
     if (world.is_dynamic(body) && !world.bodies[at(body)].asleep) instant.bodies.push_back(body);
@@ -170,7 +174,7 @@ std::vector<int> Resting::go_on(Instant instant) {
     if (piles_.of(body) == nullptr) {
       if (islands_.is_in_island(body)) continue;
       Island island = islands_.grow(instant.world, body, piles_.pile_of());
-      join_pile(island, event_work(0, island.rank()) > options_.most_work);
+      join_pile(island, is_too_much(instant, island));
       if (piles_.of(body) == nullptr) go_on(instant, island);
     }
     PileList::Pile* pile = piles_.of(body);
@@ -181,9 +185,17 @@ std::vector<int> Resting::go_on(Instant instant) {
   return std::move(instant.changed);
 }
 
+// To go on from event to event, with an island that is no pile yet.
+bool Resting::is_too_much(const Instant& instant, const Island& island) const {
+  if (!std::isfinite(options_.most_work)) return false;
+  return law_->event_work(0, island.rank()) > options_.most_work ||
+         (instant.now < dt_ && budget_.is_spent(island));
+}
+
 // Plans end, the instant's impact law acts, and new plans begin; an island that cannot be followed becomes a pile.
 void Resting::go_on(Instant& instant, Island& island) {
-  const double work = instant.report.kinematic_work, before = stand(instant, island.members);
+  const double work = instant.report.kinematic_work, before = stand(instant, island.members),
+               worked = law_->work();
   wake(instant.world, island.members, instant.report);
   report_.largest_island = std::max(report_.largest_island, island.points());
   for (const IslandPair& pair : island.pairs)
@@ -191,6 +203,8 @@ void Resting::go_on(Instant& instant, Island& island) {
   const bool solved = island.pairs.empty() || resolve(instant, island);
   set_motions(instant, island.members, before, work);
   const bool goes = instant.now >= dt_ || island.pairs.empty() || (solved && plan(instant, island));
+  budget_.add(island, law_->work() - worked);
+  if (instant.now >= dt_) budget_.forgive(island, envelope() / dt_);
   if (!goes) join_pile(island, true);
 }
 
@@ -355,7 +369,7 @@ bool Resting::plan(Instant& instant, Island& island) {
     instant.report.lcp_residual = std::max(instant.report.lcp_residual, maker_.worst_residual());
     if (result == Result::proved) {
       for (const Member& member : island.members)
-        if (member.dynamic && (shortened || length == left)) try_length_[at(member.number)] = 2 * length;
+        if (member.dynamic) try_length_[at(member.number)] = shortened ? length : 2 * length;
       break;
     }
     if (result == Result::unsolved && options_.solver.chosen)

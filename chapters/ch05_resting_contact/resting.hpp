@@ -11,6 +11,7 @@
 #include "ch05_resting_contact/pile_list.hpp"
 #include "ch05_resting_contact/rest_records.hpp"
 #include "ch05_resting_contact/standing.hpp"
+#include "ch05_resting_contact/work_budget.hpp"
 
 namespace fc::resting {
 
@@ -35,7 +36,7 @@ struct RestReport {
 };
 
 struct RestOptions {
-  double most_work = 2e5;   // see event_work(): more makes a pile
+  double most_work = 2e5;   // see ContactLaw::event_work(): more makes a pile
   int most_meetings = 256;  // and so does a body that meets others more often in one frame
   int sweeps = 16;          // of a pile's rows,
   int visits = 4000;        // and so many of single rows in any case
@@ -84,6 +85,7 @@ class Resting : public world::Planner {
   void set_motions(Instant& instant, std::span<const Member> members, double before, double work);
   void add_push(const lcp::Contact& contact, double impulse);
   double still_speed(const world::World& world, int body) const;
+  bool is_too_much(const Instant& instant, const Island& island) const;
   void join_pile(const Island& island, bool must);
   void end_plan(Instant& instant, int number);
   bool resolve(Instant& instant, Island& island);
@@ -96,6 +98,7 @@ class Resting : public world::Planner {
   std::unique_ptr<ContactLaw> law_;
   PlanMaker maker_;
   PilePlanner pile_planner_;
+  WorkBudget budget_;
   Standing standing_;
   KinematicWatch watch_;
   RestOptions options_;

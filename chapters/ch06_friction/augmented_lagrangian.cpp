@@ -119,16 +119,27 @@ VecX AugmentedLagrangian::linearise(const VecX& y) {
         entries_.emplace_back(6 * i + row, 6 * j + column, block(row, column));
   };
   VecX gradient = y;
+  Mat6 of_a = Mat6::Zero(), of_b = Mat6::Zero(),
+       between = Mat6::Zero();  // of a pair, whose contacts follow each other
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
     const Piece p = piece(k, argument(k, y));
     add_impulse(k, -p.impulse, gradient);
     const int a = place_a_[k], b = place_b_[k];
-    const Mat36 of_a = stiffness_[k] * p.D * a_[k], of_b = stiffness_[k] * p.D * b_[k];
+    const Mat36 stiff_a = stiffness_[k] * p.D * a_[k], stiff_b = stiffness_[k] * p.D * b_[k];
+    of_a.noalias() += a_[k].transpose() * stiff_a;
+    of_b.noalias() += b_[k].transpose() * stiff_b;
+    if (a > b)
+      between.noalias() += a_[k].transpose() * stiff_b;
+    else
+      between.noalias() += b_[k].transpose() * stiff_a;
+    if (k + 1 < blocks_.size() && place_a_[k + 1] == a && place_b_[k + 1] == b) continue;
     // What is zero counts, too: the matrix has the same places each time, and is ordered once.
-    if (a >= 0) add(a, a, a_[k].transpose() * of_a);
-    if (b >= 0) add(b, b, b_[k].transpose() * of_b);
-    if (a > b && b >= 0) add(a, b, a_[k].transpose() * of_b);
-    if (b > a && a >= 0) add(b, a, b_[k].transpose() * of_a);
+    if (a >= 0) add(a, a, of_a);
+    if (b >= 0) add(b, b, of_b);
+    if (a >= 0 && b >= 0) add(std::max(a, b), std::min(a, b), between);
+    of_a.setZero();
+    of_b.setZero();
+    between.setZero();
   }
   matrix_.resize(6 * size_, 6 * size_);
   matrix_.setFromTriplets(entries_.begin(), entries_.end());

@@ -14,6 +14,8 @@ namespace {
 constexpr int kPatience = 50;
 constexpr double kClearly = 0.9, kLeastShare = 1.0 / 16;
 
+constexpr double kLooksOfAStep = 20;
+
 constexpr double kDead = 1e-12;  // of the largest: directions in which no impulse moves anything
 
 // The pseudo-inverse of a symmetric positive semidefinite matrix.
@@ -97,6 +99,7 @@ void ContactSweeps::apply_impulses() {
 template <class Solve>
 double ContactSweeps::sweep(bool backwards, double relaxation, const Solve& solve) {
   double largest = 0;
+  work_ += contacts();
   for (int k = 0; k < contacts(); ++k) {
     const int i = backwards ? contacts() - 1 - k : k;
     ContactBlock& block = blocks_[index(i)];
@@ -170,19 +173,23 @@ double ContactSweeps::held_residual(std::span<const char> holds) const {
 }
 
 double ContactSweeps::run_together(int most, double enough) {
-  return AugmentedLagrangian(bodies_, blocks_).run(most, enough, [&] {
-    apply_impulses();
-    return residual();
-  });
+  return together({}, most, enough, [&] { return residual(); });
 }
 
 double ContactSweeps::run_held_together(std::span<const char> holds, int most, double enough) {
+  return together(holds, most, enough, [&] { return held_residual(holds); });
+}
+
+double ContactSweeps::together(std::span<const char> holds, int most, double enough,
+                               const std::function<double()>& left) {
   AugmentedLagrangian method(bodies_, blocks_);
   method.hold(holds);
-  return method.run(most, enough, [&] {
+  const double reached = method.run(most, enough, [&] {
     apply_impulses();
-    return held_residual(holds);
+    return left();
   });
+  work_ += kLooksOfAStep * method.steps() * contacts();
+  return reached;
 }
 
 void ContactSweeps::run_discs(std::span<const double> normals, int most, double tolerance) {

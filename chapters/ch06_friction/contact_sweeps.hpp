@@ -2,7 +2,9 @@
 // and not a matrix, so that a sweep costs as much as there are contacts.
 #pragma once
 
+#include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "ch06_friction/contact_block.hpp"
@@ -35,6 +37,9 @@ class ContactSweeps {
   // The worst violation of Coulomb's law at a contact (cone_violation), over the largest velocity without impulses or due to them.
   double residual() const;
 
+  // Contacts that were looked at since the last query; a step of Newton's method takes as long as many looks at each.
+  double take_work() { return std::exchange(work_, 0.0); }
+
   Vec3 impulse(int contact) const {
     return blocks_[index(contact)].frame * blocks_[index(contact)].r;
   }  // N s, world, on B
@@ -44,6 +49,7 @@ class ContactSweeps {
     return block.relative_velocity(bodies_) + block.offset;
   }  // m/s, in the frame
   void apply_impulses();
+  double together(std::span<const char> holds, int most, double enough, const std::function<double()>& left);
   double held_residual(std::span<const char> holds) const;
   template <class Solve>
   double sweep(bool backwards, double relaxation, const Solve& solve);
@@ -51,7 +57,7 @@ class ContactSweeps {
   void run(int most, double tolerance, const Solve& solve);
   double largest_velocity() const;
 
-  double least_ = 0;
+  double least_ = 0, work_ = 0;
   std::vector<MovedBody> bodies_;
   std::vector<ContactBlock> blocks_;
 };

@@ -24,6 +24,8 @@ struct Turn {
 constexpr Turn kTurns[] = {{40, 1e-12, 1e-10, false}, {100, 1e-10, 1e-9}, {400, 1e-8, 1e-8}};
 constexpr double kWanted = 1e-12;
 // What stands still, slower than which nothing counts: what is left of it may be this part.
+constexpr double kOfStanding = 20, kOfArrival = 30;  // see event_work()
+constexpr double kOfNewton = 15, kOfPivot = 3;       // contacts' looks, of a dense step for each
 constexpr double kNear = 1e-5;
 constexpr double kOfStill = 0.1;
 constexpr int kRounds = 20, kManySweeps = 600, kSweepsHeld = 100;
@@ -99,12 +101,13 @@ IslandResult CoulombLaw::push(const ContactSet& set, std::span<const double> lim
   };
   if (count > kFew) take(sweeps_.run(0, kTolerance));  // the guess may be good
   for (const Turn& turn : kTurns) {  // each end of some sweeps is another start for the others
-    const double enough = count > kFew ? turn.enough : turn.enough_of_few;
+    const double enough = count > kFewest ? turn.enough : turn.enough_of_few;
     if (left > kNear || turn.again) take(sweeps_.run(turn.sweeps, kTolerance));
     if (left > enough && count <= kFewest) solve_by_matrix(set, Method::newton, impulses, result);
     if (left > enough) take(sweeps_.run_together(kRounds, kWanted));
     if (left <= enough) break;
   }
+  work_ += sweeps_.take_work();
   if (result.residual > accepted && (count <= kFew || ++dear_ <= (count <= kMostInTurn ? kMostDear : 1)) &&
       count <= kMostOfMatrix)
     solve_by_matrix(set, Method::combined, impulses, result);
@@ -140,7 +143,9 @@ void CoulombLaw::solve_by_matrix(const ContactSet& set, Method method, std::span
   const lcp::ImpactProblem problem = lcp::assemble(set.bodies, rows);
   const VecX b = problem.v_before + offset, mu = Eigen::Map<const VecX>(mu_.data(), n);
   const ConeResult found =
-      solve(ConeProblem{problem.A, b, mu}, method, {.tolerance = kWanted, .start = &guess});
+      friction::solve(ConeProblem{problem.A, b, mu}, method, {.tolerance = kWanted, .start = &guess});
+  const auto count = static_cast<double>(n);
+  work_ += count * (found.sweeps + kOfNewton * count * found.steps + kOfPivot * found.pivots);
   if (!found.r.allFinite() || found.residual > result.residual) return;
   result.residual = found.residual;
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -161,6 +166,7 @@ IslandResult CoulombLaw::correct(const ContactSet& set, std::span<const double> 
   IslandResult result;
   result.residual = sweeps_.run_held(holds_, kSweepsHeld, kHeld);
   if (result.residual > kHeld) result.residual = sweeps_.run_held_together(holds_, kRounds, kHeld);
+  work_ += sweeps_.take_work();
   result.solved = result.residual <= 1e-3;
   if (!result.solved) return result;
   result.status = lcp::Status::solved;
@@ -178,6 +184,7 @@ void CoulombLaw::give_back(const ContactSet& set, std::span<const double> normal
   const std::vector<Vec3> none(normals.size(), Vec3::Zero());
   start(set, none, none, 0);
   sweeps_.run_discs(normals, kManySweeps, kTolerance);
+  work_ += sweeps_.take_work();
   for (std::size_t i = 0; i < normals.size(); ++i) {
     const Vec3 impulse = sweeps_.impulse(static_cast<int>(i));
     lcp::apply_impulse(set.bodies, set.contacts[i], impulse);
@@ -185,6 +192,12 @@ void CoulombLaw::give_back(const ContactSet& set, std::span<const double> normal
   }
 }
 // ANCHOR_END: give_back
+
+// Who stands is solved once. Arrivals are dear.
+double CoulombLaw::event_work(double arrivals, int rank) const {
+  const double rows = 8 + rank;
+  return kOfStanding * rows + kOfArrival * arrivals * rows * rows;
+}
 
 std::unique_ptr<resting::GaussSeidel> CoulombLaw::gauss_seidel() const {
   return std::make_unique<PatchedGaussSeidel>(world_);

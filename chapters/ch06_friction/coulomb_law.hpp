@@ -31,7 +31,7 @@ class CoulombLaw : public resting::NormalLaw {
   // With friction of at most µ times what is given back.
   void give_back(const ContactSet& set, std::span<const double> normals, std::span<Vec3> total) override;
   bool looks_at_bends() const override { return true; }
-  double arrival_factor() const override { return 30; }
+  double event_work(double arrivals, int rank) const override;
   double left() const override { return 3e-11; }
   std::unique_ptr<resting::GaussSeidel> gauss_seidel() const override;
   // Until the first contact that slides comes to rest.

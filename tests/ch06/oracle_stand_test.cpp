@@ -152,7 +152,7 @@ TEST(Stand, R15ArchLeastThickness) {
       expect_laws(falls, fmt::format("arch of {} falls", c.stones));
     }
 }
-TEST(Stand, DISABLED_R15ArchLeastFriction) {
+TEST(Stand, R15ArchLeastFriction) {
   const double h = 2e-5, dt = 1 / 60.0;
   Rubbing stands(arch(25, 0.15, 0.36, h), dt);
   const Drift drift(stands);
@@ -258,7 +258,7 @@ void expect_rope(double ball, double slack) {
 TEST(Stand, R17RopeOverADrum) {
   expect_rope(1e-3, 0.02);
 }
-TEST(Stand, DISABLED_R17RopeOfLightBalls) {
+TEST(Stand, R17RopeOfLightBalls) {
   expect_rope(1e-6, 0.005);
 }
 

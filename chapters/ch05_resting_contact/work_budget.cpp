@@ -1,0 +1,54 @@
+#include "ch05_resting_contact/work_budget.hpp"
+
+#include <algorithm>
+
+namespace fc::resting {
+namespace {
+
+// A frame's, of an island, and more for each of its bodies: some 10 ms, and 0.5 ms.
+constexpr double kOfIsland = 5e4, kOfBody = 3e3;
+
+// Of the rest speed: slower is as good as still.
+constexpr double kStands = 1e-3;
+
+constexpr int kLeastFrames = 8, kMostFrames = 64;
+
+}  // namespace
+
+void WorkBudget::next_frame() {
+  for (Account& account : bodies_) {
+    account.work = 0;
+    if (std::exchange(account.spent, false))
+      account.waits = account.waited = std::clamp(2 * account.waited, kLeastFrames, kMostFrames);
+    else if (account.waits > 0)
+      --account.waits;
+    else
+      account.waited = 0;
+  }
+}
+
+void WorkBudget::add(const Island& island, double work) {
+  for (const Member& member : island.members) {
+    if (!member.dynamic) continue;
+    Account& account = bodies_[at(member.number)];
+    account.work += work;
+    account.spent = account.work > kOfIsland + kOfBody * island.dynamic;
+  }
+}
+
+void WorkBudget::forgive(const Island& island, double rest_speed) {
+  const auto stands = [&](const Member& member) {
+    return !member.dynamic || member.state.velocity.norm() < kStands * rest_speed;
+  };
+  if (!std::all_of(island.members.begin(), island.members.end(), stands)) return;
+  for (const Member& member : island.members) bodies_[at(member.number)].spent = false;
+}
+
+bool WorkBudget::is_spent(const Island& island) const {
+  return std::any_of(island.members.begin(), island.members.end(), [&](const Member& member) {
+    const Account& account = bodies_[at(member.number)];
+    return member.dynamic && (account.spent || account.waits > 0);
+  });
+}
+
+}  // namespace fc::resting
