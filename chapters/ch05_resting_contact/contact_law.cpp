@@ -4,20 +4,12 @@
 
 namespace fc::resting {
 
-// Pivots look at all contacts, and there are about as many.
-IslandResult NormalLaw::solve(const ContactSet& set, std::span<const double> limits,
-                              std::span<double> normals, const IslandOptions& options) {
-  const auto count = static_cast<double>(set.contacts.size());
-  work_ += count * count;
-  return solver_.solve(set.bodies, set.contacts, limits, normals, options);
-}
-
 IslandResult NormalLaw::push(const ContactSet& set, std::span<const double> limits, std::span<Vec3> impulses,
                              const IslandOptions& options) {
   normals_.clear();
   for (std::size_t i = 0; i < impulses.size(); ++i)
     normals_.push_back(impulses[i].dot(set.contacts[i].normal));
-  const IslandResult result = solve(set, limits, normals_, options);
+  const IslandResult result = solver_.solve(set.bodies, set.contacts, limits, normals_, options);
   if (result.solved)
     for (std::size_t i = 0; i < impulses.size(); ++i) impulses[i] = normals_[i] * set.contacts[i].normal;
   return result;
@@ -25,7 +17,7 @@ IslandResult NormalLaw::push(const ContactSet& set, std::span<const double> limi
 
 IslandResult NormalLaw::correct(const ContactSet& set, std::span<const double> limits,
                                 std::span<double> impulses, const IslandOptions& options) {
-  return solve(set, limits, impulses, options);
+  return solver_.solve(set.bodies, set.contacts, limits, impulses, options);
 }
 
 void NormalLaw::give_back(const ContactSet& set, std::span<const double> normals, std::span<Vec3> total) {

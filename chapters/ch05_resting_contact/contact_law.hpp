@@ -2,6 +2,8 @@
 // do more, and stands in the same place.
 #pragma once
 
+#include <limits>
+
 #include <memory>
 
 #include "ch05_resting_contact/island_solver.hpp"
@@ -47,6 +49,8 @@ class ContactLaw {
   }
   // What it has been, in all: contacts that solvers looked at.
   double work() const { return work_; }
+  // And may be in a frame, of an island of so many bodies.
+  virtual double most_work(int /*bodies*/) const { return std::numeric_limits<double>::infinity(); }
   // Of all impulses on a body, how much may be left where they should cancel.
   virtual double left() const { return 0; }
   // The sweeps of a pile.
@@ -70,8 +74,6 @@ class NormalLaw : public ContactLaw {
   }
 
  private:
-  IslandResult solve(const ContactSet& set, std::span<const double> limits, std::span<double> normals,
-                     const IslandOptions& options);
   IslandSolver solver_;
   std::vector<double> normals_;
 };

@@ -94,7 +94,8 @@ std::vector<std::vector<int>> find_piles(const world::World& world, Contacts& co
       arrivals[at(low)] += arrivals[at(high)];
       points[at(low)] += points[at(high)];
     }
-    if (!pair.known) contacts.update(world, pair, first.pose(), second.pose());
+    if (!pair.known && Contacts::convex(world, pair))
+      contacts.update(world, pair, first.pose(), second.pose());
     const int known = pair.rank();
     if (known == 0 || pair.gap > contacts.margin())
       ++arrivals[at(low)];

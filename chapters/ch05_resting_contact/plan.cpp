@@ -33,7 +33,7 @@ constexpr int kMostProofs = 4;          // rounds in which unproved pairs become
 constexpr int kMostRounds = 8;          // in which the paths' ends are looked at again
 constexpr double kNearlyClosed = 1e-2;  // else a shorter plan is made
 constexpr double kClosed = 1e-6;        // of the margin: how exactly contacts close at the plan's end
-constexpr double kCloseEnough = 1e-4;   // and if that has taken
+constexpr double kCloseEnough = 1e-4;   // and if that has taken, where slips bend, too,
 constexpr int kPatientRounds = 4;       // so many rounds
 
 // Whether a pair that bounces comes in fast: it is in the margin, but there is room left.
@@ -259,7 +259,9 @@ PlanMaker::Result PlanMaker::close_ends() {
       worst = std::max(worst, courses_.length() * (bend_of_slip - row.slip_bend).norm());
       row.slip_bend = bend_of_slip;
     }
-    if (worst <= (round < kPatientRounds ? kClosed : kCloseEnough) * contacts_.margin()) break;
+    if (worst <=
+        (round < kPatientRounds || !law_.looks_at_bends() ? kClosed : kCloseEnough) * contacts_.margin())
+      break;
   }
   return worst <= kNearlyClosed * contacts_.margin() ? Result::proved : Result::unproved;
 }

@@ -203,7 +203,7 @@ void Resting::go_on(Instant& instant, Island& island) {
   const bool solved = island.pairs.empty() || resolve(instant, island);
   set_motions(instant, island.members, before, work);
   const bool goes = instant.now >= dt_ || island.pairs.empty() || (solved && plan(instant, island));
-  budget_.add(island, law_->work() - worked);
+  budget_.add(island, law_->work() - worked, law_->most_work(island.dynamic));
   if (instant.now >= dt_) budget_.forgive(island, envelope() / dt_);
   if (!goes) join_pile(island, true);
 }

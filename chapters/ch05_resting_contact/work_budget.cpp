@@ -5,9 +5,6 @@
 namespace fc::resting {
 namespace {
 
-// A frame's, of an island, and more for each of its bodies: some 10 ms, and 0.5 ms.
-constexpr double kOfIsland = 5e4, kOfBody = 3e3;
-
 // Of the rest speed: slower is as good as still.
 constexpr double kStands = 1e-3;
 
@@ -27,12 +24,12 @@ void WorkBudget::next_frame() {
   }
 }
 
-void WorkBudget::add(const Island& island, double work) {
+void WorkBudget::add(const Island& island, double work, double most) {
   for (const Member& member : island.members) {
     if (!member.dynamic) continue;
     Account& account = bodies_[at(member.number)];
     account.work += work;
-    account.spent = account.work > kOfIsland + kOfBody * island.dynamic;
+    account.spent = account.work > most;
   }
 }
 

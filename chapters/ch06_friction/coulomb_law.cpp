@@ -25,7 +25,9 @@ constexpr Turn kTurns[] = {{40, 1e-12, 1e-10, false}, {100, 1e-10, 1e-9}, {400, 
 constexpr double kWanted = 1e-12;
 // What stands still, slower than which nothing counts: what is left of it may be this part.
 constexpr double kOfStanding = 20, kOfArrival = 30;  // see event_work()
-constexpr double kOfNewton = 15, kOfPivot = 3;       // contacts' looks, of a dense step for each
+// Of a frame, in looks of contacts: some 0.5 ms for each body, and for few of them much more, since they are to be exact.
+constexpr double kOfIsland = 1e6, kOfBody = 3e3;
+constexpr double kOfNewton = 15, kOfPivot = 3;  // contacts' looks, of a dense step for each
 constexpr double kNear = 1e-5;
 constexpr double kOfStill = 0.1;
 constexpr int kRounds = 20, kManySweeps = 600, kSweepsHeld = 100;
@@ -143,7 +145,7 @@ void CoulombLaw::solve_by_matrix(const ContactSet& set, Method method, std::span
   const lcp::ImpactProblem problem = lcp::assemble(set.bodies, rows);
   const VecX b = problem.v_before + offset, mu = Eigen::Map<const VecX>(mu_.data(), n);
   const ConeResult found =
-      friction::solve(ConeProblem{problem.A, b, mu}, method, {.tolerance = kWanted, .start = &guess});
+      solve(ConeProblem{problem.A, b, mu}, method, {.tolerance = kWanted, .start = &guess});
   const auto count = static_cast<double>(n);
   work_ += count * (found.sweeps + kOfNewton * count * found.steps + kOfPivot * found.pivots);
   if (!found.r.allFinite() || found.residual > result.residual) return;
@@ -197,6 +199,10 @@ void CoulombLaw::give_back(const ContactSet& set, std::span<const double> normal
 double CoulombLaw::event_work(double arrivals, int rank) const {
   const double rows = 8 + rank;
   return kOfStanding * rows + kOfArrival * arrivals * rows * rows;
+}
+
+double CoulombLaw::most_work(int bodies) const {
+  return kOfIsland / bodies + kOfBody * bodies;
 }
 
 std::unique_ptr<resting::GaussSeidel> CoulombLaw::gauss_seidel() const {

@@ -32,6 +32,7 @@ class CoulombLaw : public resting::NormalLaw {
   void give_back(const ContactSet& set, std::span<const double> normals, std::span<Vec3> total) override;
   bool looks_at_bends() const override { return true; }
   double event_work(double arrivals, int rank) const override;
+  double most_work(int bodies) const override;
   double left() const override { return 3e-11; }
   std::unique_ptr<resting::GaussSeidel> gauss_seidel() const override;
   // Until the first contact that slides comes to rest.
