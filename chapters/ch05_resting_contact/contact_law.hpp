@@ -23,8 +23,6 @@ class ContactLaw {
  public:
   virtual ~ContactLaw() = default;
 
-  // A frame begins.
-  virtual void next_frame() {}
   // Finds impulses (n; N s, world, on B) that the law allows, after which contact i closes in with at most limits_i (m/s;
   // negative: it must part), and changes the bodies' velocities. Impulses come in as guesses. Unless solved, nothing changes.
   virtual IslandResult push(const ContactSet& set, std::span<const double> limits, std::span<Vec3> impulses,

@@ -88,7 +88,6 @@ Resting::Resting(const Scene& scene, world::World& world, double dt, const RestO
 RestReport Resting::step(world::World& world, const world::Listeners& listeners) {
   report_ = {};
   contacts_.next_frame();
-  law_->next_frame();
   budget_.next_frame();
   std::fill(meetings_.begin(), meetings_.end(), 0);
   std::fill(changes_.begin(), changes_.end(), 0);
@@ -460,8 +459,8 @@ bool Resting::start(Instant& instant, const std::shared_ptr<const Planned>& plan
     body.plan.number = number;
     const double speed =
         body.plan.linear.norm() + reach_of(instant.world, planned->bodies[i]) * body.plan.angular.norm();
-    if (speed < (planned->correction > 0 ? kStill * envelope() / dt_
-                                         : still_speed(instant.world, planned->bodies[i])))
+    if (speed < (planned->correction > kStill * envelope() ? kStill * envelope() / dt_
+                                                           : still_speed(instant.world, planned->bodies[i])))
       body.plan.linear = body.plan.angular = Vec3::Zero();
     else
       stands = false;

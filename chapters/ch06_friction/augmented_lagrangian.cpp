@@ -10,17 +10,20 @@
 namespace fc::friction {
 namespace {
 
-// ρ over the trace of a contact's block: of the first round, by what is left before it, and of later ones. Beyond the last, round-off
-// of velocities becomes one of impulses.
+// ρ over the trace of a contact's block. The first round's: so much over what is left before it, at least the second. Each round is
+// stiffer, up to the fourth, and beyond that, up to the fifth, if what is left falls to no less than the last part.
 constexpr double kFirst = 0.1, kSoftest = 10, kStiffer = 10, kStiff = 1e5, kStiffest = 1e8, kSlow = 0.3;
 
-constexpr int kSteps = 20;          // of Newton's method in a round
-constexpr double kMinimal = 1e-14;  // of φ, that a step may still gain
+// Steps of Newton's method in a round, until one gains but this part of φ, over ρ²: an error in velocities is one of ρ times as
+// much in impulses. Below the second part there is only round-off, if it does not fall by the factor any more.
+constexpr int kSteps = 20;
+constexpr double kMinimal = 1e-14, kRoundOff = 1e-15, kFalls = 0.25;
 
 // A line search: what part of the slope a step must gain, and how short it may become. Round-off of φ is no loss.
 constexpr double kArmijo = 1e-4, kShortestStep = 1e-3, kRounding = 1e-13;
 
-// Rounds without end: what is left must be halved within so many.
+// Rounds without end: what is left must fall to this part within so many.
+constexpr double kProgress = 0.5;
 constexpr int kIdleRounds = 6;
 
 // Of a change of the shifts, which the next takes up with this factor: from where to where it is extrapolated.
@@ -150,11 +153,12 @@ VecX AugmentedLagrangian::linearise(const VecX& y) {
 
 // ANCHOR: minimise
 void AugmentedLagrangian::minimise(VecX& y) {
-  double phi = value(y), last = 1e300;
+  const double minimal = kMinimal / (stiff_ * stiff_);
+  double phi = value(y), last = std::numeric_limits<double>::infinity();
   for (int step = 0; step < kSteps; ++step) {
     const VecX gradient = linearise(y), change = -factor_.solve(gradient);
     const double slope = gradient.dot(change);  // < 0
-    if (!(-slope > minimal_ * phi) || (-slope > 0.25 * last && -slope < 1e-15 * phi)) return;
+    if (!(-slope > minimal * phi) || (-slope > kFalls * last && -slope < kRoundOff * phi)) return;
     last = -slope;
     double part = 1, next = value(y + change);
     while (next > phi + kArmijo * part * slope + kRounding * phi && part > kShortestStep) {
@@ -185,22 +189,36 @@ void AugmentedLagrangian::shift(const VecX& y, int round) {
   }
 }
 
+// What the guesses do.
+VecX AugmentedLagrangian::start_round() {
+  VecX y = VecX::Zero(6 * size_);
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    add_impulse(k, guess_[k], y);
+    const double size = blocks_[k].delassus.trace();
+    stiffness_[k] = size > 0 ? stiff_ / size : 1;
+  }
+  return y;
+}
+
+// Stiffer, as long as that helps; false: it did not, for round-off.
+bool AugmentedLagrangian::adapt(double now, double before) {
+  if (now > before && stiff_ >= kStiff) {
+    stiffest_ = stiff_ / kStiffer;
+    stiff_ = std::min(kStiff, stiffest_);
+    return false;
+  }
+  if (stiff_ < kStiff || (now > kSlow * before && stiff_ < stiffest_)) stiff_ *= kStiffer;
+  return true;
+}
+
 // ANCHOR: rounds
 double AugmentedLagrangian::run(int most, double enough, const std::function<double()>& left) {
-  double best = left(), halved = best, before = best;
-  double stiff = std::clamp(kFirst / best, kSoftest, kStiff);
+  double best = left(), before = best, progress = best;
   std::vector<Vec3> best_r = guess_;
-  VecX y(6 * size_);
-  double stiffest = kStiffest;
-  int patience = kIdleRounds;
-  for (int round = 0; round < most && best > enough && patience > 0; ++round) {
-    y.setZero();
-    for (std::size_t k = 0; k < blocks_.size(); ++k) {
-      add_impulse(k, guess_[k], y);
-      const double size = blocks_[k].delassus.trace();
-      stiffness_[k] = size > 0 ? stiff / size : 1;
-    }
-    minimal_ = kMinimal / (stiff * stiff);
+  stiff_ = std::clamp(kFirst / best, kSoftest, kStiff);
+  stiffest_ = kStiffest;
+  for (int round = 0, idle = 0; round < most && best > enough && idle < kIdleRounds; ++round) {
+    VecX y = start_round();
     shift(y, round);
     minimise(y);
     for (std::size_t k = 0; k < blocks_.size(); ++k)
@@ -210,18 +228,14 @@ double AugmentedLagrangian::run(int most, double enough, const std::function<dou
       best = now;
       best_r = guess_;
     }
-    --patience;
-    if (best < 0.5 * halved) {
-      halved = best;
-      patience = kIdleRounds;
+    ++idle;
+    if (best < kProgress * progress) {
+      progress = best;
+      idle = 0;
     }
-    if (now > before && stiff >= kStiff) {  // round-off
-      stiffest = stiff / kStiffer;
-      stiff = std::min(kStiff, stiffest);
+    if (!adapt(now, before)) {
       guess_ = best_r;
       std::fill(shift_change_.begin(), shift_change_.end(), 0);
-    } else if (stiff < kStiff || (now > kSlow * before && stiff < stiffest)) {
-      stiff *= kStiffer;
     }
     before = now;
   }

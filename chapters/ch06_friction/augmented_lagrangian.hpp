@@ -50,8 +50,10 @@ class AugmentedLagrangian {
   void add_impulse(std::size_t k, const Vec3& r, VecX& y) const;
   double value(const VecX& y) const;
   VecX linearise(const VecX& y);
-  void minimise(VecX& y);
+  VecX start_round();
   void shift(const VecX& y, int round);
+  void minimise(VecX& y);
+  bool adapt(double now, double before);
 
   std::span<ContactBlock> blocks_;
   std::span<const char> holds_;
@@ -59,7 +61,7 @@ class AugmentedLagrangian {
   std::vector<Mat36> a_, b_;            // G's parts
   std::vector<Vec3> guess_;             // r̄
   std::vector<double> stiffness_, shift_, shift_change_;
-  double minimal_ = 0;
+  double stiff_ = 0, stiffest_ = 0;  // ρ over the trace of a contact's block, now and at most
   bool jumped_ = false;
   int size_ = 0, steps_ = 0;
   std::vector<Eigen::Triplet<double>> entries_;

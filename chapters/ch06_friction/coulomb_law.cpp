@@ -14,8 +14,8 @@ using resting::at;
 // Sweeps until impulses change by less than this, of the largest velocity.
 constexpr double kTolerance = 1e-14;
 
-// Sweeps, then all contacts together, in turns: with what residual each is content, of few contacts and of more. All
-// together try for less.
+// Sweeps, then all contacts at once, in turns: with what residual each is content, of few contacts (the first number below) and
+// of more. All at once try for kWanted.
 struct Turn {
   int sweeps;
   double enough_of_few, enough;
@@ -23,19 +23,24 @@ struct Turn {
 };
 constexpr Turn kTurns[] = {{40, 1e-12, 1e-10, false}, {100, 1e-10, 1e-9}, {400, 1e-8, 1e-8}};
 constexpr double kWanted = 1e-12;
-// What stands still, slower than which nothing counts: what is left of it may be this part.
-constexpr double kOfStanding = 20, kOfArrival = 30;  // see event_work()
-// Of a frame, in looks of contacts: some 0.5 ms for each body, and for few of them much more, since they are to be exact.
-constexpr double kOfIsland = 1e6, kOfBody = 3e3;
-constexpr double kOfNewton = 15, kOfPivot = 3;  // contacts' looks, of a dense step for each
+constexpr int kRounds = 20;
+// A guess that leaves less needs no sweeps.
 constexpr double kNear = 1e-5;
+// Of the speed that counts as standing still, how much may be left.
 constexpr double kOfStill = 0.1;
-constexpr int kRounds = 20, kManySweeps = 600, kSweepsHeld = 100;
-// Above these residuals islands are not solved: of few contacts, and of more.
-constexpr double kAcceptedOfFew = 1e-6, kAccepted = 1e-4;
-constexpr int kMostDear = 6;
-constexpr int kFewest = 12, kFew = 32, kMostOfMatrix = 250, kMostInTurn = 60, kFewSlips = 16;
 
+// So many contacts get Newton's method on their impulses, so many all methods at last; and among so many plans end where a slip ends.
+constexpr int kFewest = 12, kFew = 32, kFewSlips = 16;
+// Above these residuals islands are not solved: of few contacts (the second number), and of more.
+constexpr double kAcceptedOfFew = 1e-6, kAccepted = 1e-4;
+
+// What a frame may take: see event_work(); and in looks at contacts, some 0.5 ms for each body, and much more for few bodies, which
+// are to be exact.
+constexpr double kOfStanding = 20, kOfArrival = 30, kOfIsland = 1e6, kOfBody = 3e3;
+// A dense step for each contact, a pivot: looks.
+constexpr double kOfNewton = 15, kOfPivot = 3;
+
+constexpr int kManySweeps = 600, kSweepsHeld = 100;
 constexpr double kHeld = 1e-7;  // of the largest velocity, of corrections
 
 // A contact inside its cone by more than this part of it sticks.
@@ -110,10 +115,8 @@ IslandResult CoulombLaw::push(const ContactSet& set, std::span<const double> lim
     if (left <= enough) break;
   }
   work_ += sweeps_.take_work();
-  if (result.residual > accepted && (count <= kFew || ++dear_ <= (count <= kMostInTurn ? kMostDear : 1)) &&
-      count <= kMostOfMatrix)
-    solve_by_matrix(set, Method::combined, impulses, result);
-  result.solved = result.residual <= accepted;
+  if (left > accepted && count <= kFew) solve_by_matrix(set, Method::combined, impulses, result);
+  result.solved = left <= accepted;
   if (!result.solved) return result;
   result.status = lcp::Status::solved;
   for (std::size_t i = 0; i < impulses.size(); ++i) {

@@ -21,7 +21,6 @@ class CoulombLaw : public resting::NormalLaw {
   // Balls that rub turn: sets the world's effects.
   explicit CoulombLaw(world::World& world);
 
-  void next_frame() override { dear_ = 0; }
   // Coulomb's law on the velocities after, with limits as in NormalLaw: K* ∋ (u_N + limit + µ|u_T|, u_T) ⟂ r ∈ K.
   IslandResult push(const ContactSet& set, std::span<const double> limits, std::span<Vec3> impulses,
                     const IslandOptions& options) override;
@@ -33,7 +32,7 @@ class CoulombLaw : public resting::NormalLaw {
   bool looks_at_bends() const override { return true; }
   double event_work(double arrivals, int rank) const override;
   double most_work(int bodies) const override;
-  double left() const override { return 3e-11; }
+  double left() const override { return 6e-11; }
   std::unique_ptr<resting::GaussSeidel> gauss_seidel() const override;
   // Until the first contact that slides comes to rest.
   double holds_until(const ContactSet& mean, std::span<const RigidBody> now, std::span<const Vec3> impulses,
@@ -50,7 +49,6 @@ class CoulombLaw : public resting::NormalLaw {
   ContactSweeps sweeps_;
   std::vector<Vec3> offsets_;  // m/s, world: what is added to each contact's velocity
   std::vector<double> mu_;     // of each contact of the set at hand
-  int dear_ = 0;               // solutions by all methods in turn, of many contacts, in this frame
   std::vector<char> holds_;    // of each contact of the last push: it sticks
 };
 
