@@ -34,9 +34,9 @@ constexpr int kFewest = 12, kFew = 32, kFewSlips = 16;
 // Above these residuals islands are not solved: of few contacts (the second number), and of more.
 constexpr double kAcceptedOfFew = 1e-6, kAccepted = 1e-4;
 
-// What a frame may take: see event_work(); and in looks at contacts, some 0.5 ms for each body, and much more for few bodies, which
+// What a frame may take: see event_work(); and in looks at contacts, some 5 ms for each body, and much more for few bodies, which
 // are to be exact.
-constexpr double kOfStanding = 20, kOfArrival = 30, kOfIsland = 1e6, kOfBody = 3e3;
+constexpr double kOfStanding = 20, kOfArrival = 30, kOfIsland = 3e6, kOfBody = 3e4;
 // A dense step for each contact, a pivot: looks.
 constexpr double kOfNewton = 15, kOfPivot = 3;
 
