@@ -1,6 +1,6 @@
 """Chapter 6's drawings. Some are of runs, the others from the formulas of the text.
 
-Reads RUN_DIR/slide, stop, card_house, arch, pencil and billiards: runs of the chapter's scenes, as its text makes them. Writes one picture for each name into the folder --out.
+Reads RUN_DIR/slide, stop, card_house, arch, pencil and billiards: runs of the chapter's scenes, as its text makes them; and RUN_DIR/towers.csv. Writes one picture for each name into the folder --out.
 """
 
 import drawing_python  # noqa: F401  first: it finds a Python that can draw
@@ -361,7 +361,26 @@ def gallery(runs: Path) -> plt.Figure:
     return figure
 
 
-DRAWINGS = {f.__name__: f for f in (cone, stick_slip, isotropy, slip_root, rod, stages, stop, patch, gallery)}
+def towers(run: Path) -> plt.Figure:
+    table = Table(run / "towers.csv")
+    boxes, looks, error = table["boxes"].astype(int), table["looks at each contact"], table["force error"]
+    together = np.array([method == "together" for method in table.text("method")])
+    figure, axes = plt.subplots(figsize=(7.2, 3.9))
+    for count, colour in ((5, BLUE), (20, ORANGE), (50, GREEN)):
+        for at_once, line in ((False, "o--"), (True, "s-")):
+            rows = (boxes == count) & (together == at_once)
+            axes.loglog(looks[rows], np.maximum(error[rows], 1e-13), line, ms=3.5, lw=1.2, color=colour)
+    for place, text, colour in (((160, 1e-4), "5", BLUE), ((3.2e3, 2e-4), "20", ORANGE), ((3.2e3, 0.25), "50 boxes", GREEN)):
+        note(axes, place, text, colour, ha="left")
+    axes.plot([], [], "o--", color=GREY, ms=3.5, label="sweeps")
+    axes.plot([], [], "s-", color=GREY, ms=3.5, label="40 sweeps, then all at once")
+    axes.set(xlabel="looks at each contact", ylabel="error of the force under the lowest box", ylim=(3e-13, 3))
+    axes.legend(loc="lower left", frameon=False)
+    axes.grid(True, alpha=0.3)
+    return figure
+
+
+DRAWINGS = {f.__name__: f for f in (cone, stick_slip, isotropy, slip_root, rod, stages, stop, patch, towers, gallery)}
 
 
 def main() -> None:

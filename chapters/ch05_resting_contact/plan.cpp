@@ -259,9 +259,8 @@ PlanMaker::Result PlanMaker::close_ends() {
       worst = std::max(worst, courses_.length() * (bend_of_slip - row.slip_bend).norm());
       row.slip_bend = bend_of_slip;
     }
-    if (worst <=
-        (round < kPatientRounds || !law_.looks_at_bends() ? kClosed : kCloseEnough) * contacts_.margin())
-      break;
+    const bool patient = round < kPatientRounds || !law_.looks_at_bends();
+    if (worst <= (patient ? kClosed : kCloseEnough) * contacts_.margin()) break;
   }
   return worst <= kNearlyClosed * contacts_.margin() ? Result::proved : Result::unproved;
 }

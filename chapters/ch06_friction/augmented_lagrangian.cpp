@@ -57,7 +57,6 @@ AugmentedLagrangian::AugmentedLagrangian(std::span<const MovedBody> bodies, std:
   stiffness_.resize(blocks.size());
 }
 
-// ANCHOR: cone_piece
 AugmentedLagrangian::Piece AugmentedLagrangian::piece(std::size_t k, const Vec3& x) const {
   const double mu = blocks_[k].mu;
   Piece result;
@@ -85,7 +84,6 @@ AugmentedLagrangian::Piece AugmentedLagrangian::piece(std::size_t k, const Vec3&
   result.D.block<2, 2>(1, 1) += mu * result.impulse[0] / slip * across * across.transpose();
   return result;
 }
-// ANCHOR_END: cone_piece
 
 // u(y), m/s; tangents that are held: what they have moved.
 Vec3 AugmentedLagrangian::velocity(std::size_t k, const VecX& y) const {

@@ -1,17 +1,20 @@
-// ch06_cones: how well each method does on friction problems in files, and what flat sides do to a free slide.
+// ch06_cones: how well each method does on friction problems in files, what flat sides do to a free slide, and what towers take.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <numbers>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "ch03_impulse_lcp/matrix_market.hpp"
 #include "ch06_friction/facet_study.hpp"
+#include "ch06_friction/tower_study.hpp"
 
 namespace {
 
@@ -70,6 +73,16 @@ void measure_facets(int angles, int steps) {
   for (const int sides : {4, 8, 16}) print(fmt::format("pyramid of {}", sides), {Method::pyramid, sides});
 }
 
+void measure_towers(const std::filesystem::path& file) {
+  std::ofstream out(file);
+  out << "boxes,method,steps,looks at each contact,residual,force error\n";
+  for (const int boxes : {5, 20, 50})
+    for (const TowerRow& row : measure_tower(boxes))
+      out << fmt::format("{},{},{},{:.6g},{:.3e},{:.3e}\n", row.boxes, row.method, row.steps, row.looks,
+                         row.residual, row.force_error);
+  if (!out.flush()) throw std::runtime_error(file.string() + ": cannot be written");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -83,12 +96,15 @@ int main(int argc, char** argv) {
   app.add_option("--methods", methods, "Methods to measure")->delimiter(',')->capture_default_str();
   app.add_option("--most-contacts", most_contacts, "Leave larger problems out")->capture_default_str();
   app.add_flag("--facets", facets, "The free slide on a plane, by boxes and pyramids");
+  std::string towers;
+  app.add_option("--towers", towers, "Write a table: towers of boxes by sweeps, and by all contacts at once");
   CLI11_PARSE(app, argc, argv);
   try {
     std::vector<Method> chosen;
     for (const std::string& word : methods) chosen.push_back(method_named(word));
     if (!folder.empty()) measure_problems(folder, chosen, most_contacts);
     if (facets) measure_facets(91, 400);
+    if (!towers.empty()) measure_towers(towers);
   } catch (const std::exception& error) {
     std::cerr << error.what() << "\n";
     return 2;

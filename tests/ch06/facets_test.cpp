@@ -1,10 +1,11 @@
-// What flat sides do to friction: the numbers of a block that slides freely on a plane.
+// What accuracy costs: flat sides, by a block that slides freely on a plane; sweeps and all contacts at once, by towers.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
 #include "ch06_friction/facet_study.hpp"
+#include "ch06_friction/tower_study.hpp"
 
 namespace fc::friction {
 namespace {
@@ -49,6 +50,19 @@ TEST(Facets, MoreSidesAreLessWrong) {
   const double sixteen = facet_errors({Method::pyramid, 16}, 31, 100).direction;
   EXPECT_NEAR(eight / kDegree, 5.8, 0.2);
   EXPECT_NEAR(sixteen / kDegree, 2.8, 0.2);
+}
+
+TEST(Towers, AreCarriedAtOnceAndNotBySweeps) {
+  for (const int boxes : {5, 50}) {
+    double after_sweeps = 1, at_once = 1;
+    for (const TowerRow& row : measure_tower(boxes)) {
+      if (row.method == "sweeps" && row.steps == 200) after_sweeps = row.force_error;
+      if (row.method == "together") at_once = std::min(at_once, row.looks < 600 ? row.force_error : 1);
+    }
+    EXPECT_LE(at_once, 1e-6) << boxes;
+    if (boxes == 5) EXPECT_LE(after_sweeps, 1e-3);
+    if (boxes == 50) EXPECT_GE(after_sweeps, 0.5);
+  }
 }
 
 }  // namespace
