@@ -10,11 +10,11 @@
 namespace fc::friction {
 namespace {
 
-// ρ over the trace of a contact's block. The first round's: so much over what is left before it, at least the second. Each round is
+// σ over the trace of a contact's block. The first round's: so much over what is left before it, at least the second. Each round is
 // stiffer, up to the fourth, and beyond that, up to the fifth, if what is left falls to no less than the last part.
 constexpr double kFirst = 0.1, kSoftest = 10, kStiffer = 10, kStiff = 1e5, kStiffest = 1e8, kSlow = 0.3;
 
-// Steps of Newton's method in a round, until one gains but this part of φ, over ρ²: an error in velocities is one of ρ times as
+// Steps of Newton's method in a round, until one gains but this part of φ, over σ²: an error in velocities is one of σ times as
 // much in impulses. Below the second part there is only round-off, if it does not fall by the factor any more.
 constexpr int kSteps = 20;
 constexpr double kMinimal = 1e-14, kRoundOff = 1e-15, kFalls = 0.25;

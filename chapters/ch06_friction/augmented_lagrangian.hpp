@@ -2,14 +2,14 @@
 // thousands of sweeps.
 //
 // If the shifts s = µ|u_T| of the law K* ∋ u + s n ⟂ r ∈ K were known, r would minimise a convex function, and v would be the
-// minimum of another: its augmented Lagrangian (Hestenes 1969, Powell 1969; Rockafellar 1976). From a guess r̄, with a stiffness ρ
+// minimum of another: its augmented Lagrangian (Hestenes 1969, Powell 1969; Rockafellar 1976). From a guess r̄, with a stiffness σ
 // of each contact (kg),
 //
-//     φ(y) = ½ |y|² + Σ |P_K(r̄ - ρ (u(y) + s n))|² / 2ρ,    u(y) = u_0 + G y,   G = J L,   M⁻¹ = L L',
+//     φ(y) = ½ |y|² + Σ |P_K(r̄ - σ (u(y) + s n))|² / 2σ,    u(y) = u_0 + G y,   G = J L,   M⁻¹ = L L',
 //
 // where y is what impulses change of the bodies' velocities, scaled by their masses. At the minimum y = G'r with r = P_K(...):
-// these r are the next r̄. ρ need not be infinite: what is left of the law shrinks by 1/(1 + ρλ) each time, λ an eigenvalue of
-// J M⁻¹ J'. And since I + G' ρ D G is positive definite, however many contacts are redundant, nobody has to find out which.
+// these r are the next r̄. σ need not be infinite: what is left of the law shrinks by 1/(1 + σλ) each time, λ an eigenvalue of
+// J M⁻¹ J'. And since I + G' σ D G is positive definite, however many contacts are redundant, nobody has to find out which.
 // The minimum is Newton's method's, with a line search; P_K has derivatives (D) where the state does not change.
 // s is that of the last u, as in Cadoux's fixed point (2009), made faster by Aitken's rule.
 #pragma once
@@ -61,11 +61,11 @@ class AugmentedLagrangian {
   std::vector<Mat36> a_, b_;            // G's parts
   std::vector<Vec3> guess_;             // r̄
   std::vector<double> stiffness_, shift_, shift_change_;
-  double stiff_ = 0, stiffest_ = 0;  // ρ over the trace of a contact's block, now and at most
+  double stiff_ = 0, stiffest_ = 0;  // σ over the trace of a contact's block, now and at most
   bool jumped_ = false;
   int size_ = 0, steps_ = 0;
   std::vector<Eigen::Triplet<double>> entries_;
-  Eigen::SparseMatrix<double> matrix_;  // the lower half of I + G' ρ D G
+  Eigen::SparseMatrix<double> matrix_;  // the lower half of I + G' σ D G
   Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> factor_;
 };
 

@@ -60,8 +60,8 @@ TEST(Towers, AreCarriedAtOnceAndNotBySweeps) {
       if (row.method == "together") at_once = std::min(at_once, row.looks < 600 ? row.force_error : 1);
     }
     EXPECT_LE(at_once, 1e-6) << boxes;
-    if (boxes == 5) EXPECT_LE(after_sweeps, 1e-3);
-    if (boxes == 50) EXPECT_GE(after_sweeps, 0.5);
+    EXPECT_EQ(after_sweeps < 1e-3, boxes == 5) << after_sweeps;
+    EXPECT_EQ(after_sweeps > 0.5, boxes == 50) << after_sweeps;
   }
 }
 
