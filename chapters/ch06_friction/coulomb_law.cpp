@@ -22,7 +22,7 @@ struct Turn {
   bool again = true;
 };
 constexpr Turn kTurns[] = {{40, 1e-12, 1e-10, false}, {100, 1e-10, 1e-9}, {400, 1e-8, 1e-8}};
-constexpr double kWanted = 1e-12;
+constexpr double kWanted = 1e-12, kMore = 10;  // and times so much of very many
 constexpr int kRounds = 20;
 // A guess that leaves less needs no sweeps.
 constexpr double kNear = 1e-5;
@@ -36,12 +36,14 @@ constexpr double kAcceptedOfFew = 1e-6, kAccepted = 1e-4;
 
 // What a frame may take: see event_work(); and in looks at contacts, some 5 ms for each body, and much more for few bodies, which
 // are to be exact.
-constexpr double kOfStanding = 20, kOfArrival = 30, kOfIsland = 3e6, kOfBody = 3e4;
+constexpr double kOfStanding = 100, kOfArrival = 30, kOfIsland = 3e6, kOfBody = 3e4;
 // A dense step for each contact, a pivot: looks.
 constexpr double kOfNewton = 15, kOfPivot = 3;
 
 constexpr int kManySweeps = 600, kSweepsHeld = 100;
-constexpr double kHeld = 1e-7;  // of the largest velocity, of corrections
+// Of the largest velocity, of corrections; and from so many contacts on, where each round takes long.
+constexpr double kHeld = 1e-7, kHeldOfMany = 1e-5;
+constexpr int kMany = 1000;
 
 // A contact inside its cone by more than this part of it sticks.
 constexpr double kSticking = 1e-9;
@@ -108,7 +110,7 @@ IslandResult CoulombLaw::push(const ContactSet& set, std::span<const double> lim
   };
   if (count > kFew) take(sweeps_.run(0, kTolerance));  // the guess may be good
   for (const Turn& turn : kTurns) {  // each end of some sweeps is another start for the others
-    const double enough = count > kFewest ? turn.enough : turn.enough_of_few;
+    const double enough = count > kFewest ? turn.enough * (count < kMany ? 1 : kMore) : turn.enough_of_few;
     if (left > kNear || turn.again) take(sweeps_.run(turn.sweeps, kTolerance));
     if (left > enough && count <= kFewest) solve_by_matrix(set, Method::newton, impulses, result);
     if (left > enough) take(sweeps_.run_together(kRounds, kWanted));
@@ -169,8 +171,9 @@ IslandResult CoulombLaw::correct(const ContactSet& set, std::span<const double> 
   for (std::size_t i = 0; i < limits.size(); ++i) offsets.push_back(limits[i] * set.contacts[i].normal);
   start(set, offsets, guesses, options.still);
   IslandResult result;
-  result.residual = sweeps_.run_held(holds_, kSweepsHeld, kHeld);
-  if (result.residual > kHeld) result.residual = sweeps_.run_held_together(holds_, kRounds, kHeld);
+  const double enough = set.contacts.size() < kMany ? kHeld : kHeldOfMany;
+  result.residual = sweeps_.run_held(holds_, kSweepsHeld, enough);
+  if (result.residual > enough) result.residual = sweeps_.run_held_together(holds_, kRounds, enough);
   work_ += sweeps_.take_work();
   result.solved = result.residual <= 1e-3;
   if (!result.solved) return result;
