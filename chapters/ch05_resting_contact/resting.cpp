@@ -30,6 +30,8 @@ constexpr double kNearlyAll = 0.75;
 // A body in contact whose points are slower than this part of the margin in a frame stands still: below it is round-off of
 // impulses that cancel. So much a body may lose in a frame, in all its instants together.
 constexpr double kStill = 1e-9;
+// Where impulses are so large that they cancel to no better, up to this part: paths are proved with more room.
+constexpr double kMostStill = 1e-6;
 
 // What happens at the frame's end is reported a little before it (of a frame): it belongs to this frame, whose velocities it makes.
 constexpr double kBeforeEnd = 1e-9;
@@ -160,8 +162,8 @@ void Resting::add_push(const lcp::Contact& contact, double impulse) {
 
 // m/s: a body in contact whose points are slower stands still.
 double Resting::still_speed(const world::World& world, int body) const {
-  return kStill * envelope() / dt_ +
-         law_->left() * pushed_[at(body)] * world.bodies[at(body)].state.inverse_mass;
+  const double left = law_->left() * pushed_[at(body)] * world.bodies[at(body)].state.inverse_mass;
+  return std::min(kStill * envelope() / dt_ + left, kMostStill * envelope() / dt_);
 }
 
 // These bodies, and all that they are in contact with, directly or over others.
