@@ -39,15 +39,15 @@ class ContactLaw {
                              std::span<const Vec3> impulses, double length) const = 0;
   // Whether push() looks at the set's bends.
   virtual bool looks_at_bends() const { return false; }
-  // How much work it would be to follow bodies from event to event: with so many pairs of which each may come into contact, and
-  // so many contact points that can push at once.
+  // An estimate of the work of following a group of bodies from event to event.
+  //   arrivals: pairs that may come into contact; rank: contact points that can push at once.
   virtual double event_work(double arrivals, int rank) const {
     const double rows = 8 + rank;
     return (1 + arrivals) * rows * rows;
   }
-  // What it has been, in all: contacts that solvers looked at.
+  // The work done since the start: how often a solver looked at a contact.
   double work() const { return work_; }
-  // And may be in a frame, of an island of so many bodies.
+  // The most work, counted in the same way, that an island of so many bodies may take in a frame.
   virtual double most_work(int /*bodies*/) const { return std::numeric_limits<double>::infinity(); }
   // Of all impulses on a body, how much may be left where they should cancel.
   virtual double left() const { return 0; }

@@ -33,8 +33,8 @@ constexpr int kMostProofs = 4;          // rounds in which unproved pairs become
 constexpr int kMostRounds = 8;          // in which the paths' ends are looked at again
 constexpr double kNearlyClosed = 1e-2;  // else a shorter plan is made
 constexpr double kClosed = 1e-6;        // of the margin: how exactly contacts close at the plan's end
-constexpr double kCloseEnough = 1e-4;   // and if that has taken, where slips bend, too,
-constexpr int kPatientRounds = 4;       // so many rounds
+constexpr double kCloseEnough = 1e-4;   // the same, where slips bend, after the patient rounds
+constexpr int kPatientRounds = 4;
 
 // Whether a pair that bounces comes in fast: it is in the margin, but there is room left.
 bool comes_in_fast(const IslandPair& pair, std::span<const Member> members, double rest_speed,

@@ -285,7 +285,8 @@ void Resting::end_plan(Instant& instant, int number) {
 
 // The instant's impact law; false if it could not be solved.
 bool Resting::resolve(Instant& instant, Island& island) {
-  if (const auto known = standing_.instant(island)) {
+  const bool ends = instant.now >= dt_;  // the frame
+  if (const auto known = ends ? standing_.instant(island) : nullptr) {
     report_instant(instant, *known);
     return true;
   }
@@ -295,7 +296,8 @@ bool Resting::resolve(Instant& instant, Island& island) {
   options.guess = instant.planned;
   options.bounces = [&](int body) { return meetings_[at(body)] < kMostBounces; };
   options.solver = options_.solver;
-  const std::vector<Member> before = island.members;
+  std::vector<Member> before;
+  if (ends) before = island.members;
   const InstantResult result = resolve_instant(instant.world, island, envelope(), *law_, options);
   if (!result.solved && options_.solver.chosen)
     throw lcp::unsolved(instant.world.solver, result.status, result.steps, result.residual);
@@ -314,7 +316,7 @@ bool Resting::resolve(Instant& instant, Island& island) {
     stilled += speed;
     member.state.velocity = member.state.spin = Vec3::Zero();
   }
-  if (instant.now >= dt_ && !result.impact) standing_.keep(before, island, result);
+  if (ends && !result.impact) standing_.keep(before, island, result);
   if (result.impact && instant.listeners.instant) {
     for (const Member& member : island.members)
       if (member.dynamic) instant.world.set_motion(member.number, member.state, instant.now);

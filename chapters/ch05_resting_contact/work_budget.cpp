@@ -1,13 +1,15 @@
 #include "ch05_resting_contact/work_budget.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace fc::resting {
 namespace {
 
-// Of the rest speed: slower is as good as still.
+// An island stands if its bodies are slower than this part of the rest speed.
 constexpr double kStands = 1e-3;
 
+// How long an island is a pile after it has spent its budget, at first and at most.
 constexpr int kLeastFrames = 8, kMostFrames = 64;
 
 }  // namespace

@@ -7,9 +7,9 @@
 
 namespace fc::resting {
 
-// Work is counted in contacts that a solver has looked at: so it is the same on every machine. An island that takes more than a
-// frame should is a pile for the rest of it, and for some frames, which double each time. But who stands afterwards is forgiven:
-// balance may take much to find, and then costs nothing.
+// Work is the number of times that a solver looks at a contact, so it is the same on every machine. An island that exceeds the
+// budget of a frame becomes a pile for the rest of the frame and for some frames more; each time it exceeds it again, for twice as
+// many. An island that stands at the frame's end is exempt: its balance may be dear to find, and then costs nothing.
 class WorkBudget {
  public:
   explicit WorkBudget(std::size_t bodies) : bodies_(bodies) {}
@@ -23,8 +23,8 @@ class WorkBudget {
  private:
   struct Account {
     double work = 0;  // in this frame, with its island
-    int waits = 0;    // so many frames more,
-    int waited = 0;   // after so many
+    int waits = 0;    // frames for which it is still a pile
+    int waited = 0;   // frames for which it was one the last time
     bool spent = false;
   };
   std::vector<Account> bodies_;
