@@ -225,6 +225,7 @@ double Contacts::search_convex(const world::World& world, PairContacts& pair, co
   pair.axis_gap = manifold.gap;
   pair.of_b = manifold.of_b;
   pair.axis = (manifold.of_b ? b : a).rotation.transpose() * manifold.normal;
+  pair.points.reserve(at(manifold.count));
   for (int i = 0; i < manifold.count; ++i) {
     const ManifoldPoint& p = manifold.points[at(i)];
     ContactPoint point;

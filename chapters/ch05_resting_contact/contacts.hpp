@@ -49,13 +49,15 @@ struct ContactPoint {
   }
   Vec3 on_a(const Pose& pose_a, const Pose& pose_b) const { return a.at(pose_a, normal_at(pose_a, pose_b)); }
   Vec3 on_b(const Pose& pose_a, const Pose& pose_b) const { return b.at(pose_b, -normal_at(pose_a, pose_b)); }
-  Vec3 middle(const Pose& pose_a, const Pose& pose_b) const {
-    return 0.5 * (on_a(pose_a, pose_b) + on_b(pose_a, pose_b));
-  }
   double gap_at(const Pose& pose_a, const Pose& pose_b) const {
-    return normal_at(pose_a, pose_b).dot(on_b(pose_a, pose_b) - on_a(pose_a, pose_b));
+    const Vec3 normal = normal_at(pose_a, pose_b);
+    return normal.dot(b.at(pose_b, -normal) - a.at(pose_a, normal));
   }
   // ANCHOR_END: gap
+  Vec3 middle(const Pose& pose_a, const Pose& pose_b) const {
+    const Vec3 normal = normal_at(pose_a, pose_b);
+    return 0.5 * (a.at(pose_a, normal) + b.at(pose_b, -normal));
+  }
   // Whether another point of the same pair is at the same place, to `near` (m), with the same normal.
   bool is_same(const ContactPoint& other, double near) const {
     return key == other.key && of_b == other.of_b && (local_normal - other.local_normal).norm() < 1e-6 &&

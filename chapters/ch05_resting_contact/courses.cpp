@@ -186,7 +186,9 @@ std::vector<int> Courses::widen(const world::World& world) {
 void Courses::find(const world::World& world, bool far) {
   const bool none = boxes_.empty();
   if (std::exchange(fresh_, false))
-    for (const Candidate& pair : candidates) {
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      fetch_ahead(i);
+      const Candidate& pair = candidates[i];
       contacts_.use(*pair.contacts);
       update(world, pair, far);
     }

@@ -41,7 +41,9 @@ class Courses {
   template <class OptionsOf>
   bool prove(const world::World& world, OptionsOf&& options_of) {
     bool all = true;
-    for (Candidate& pair : candidates) {
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      fetch_ahead(i);
+      Candidate& pair = candidates[i];
       const double moved = moved_[at(pair.a)] + moved_[at(pair.b)];
       const double since = moved - pair.moved;
       if (!pair.checked || (pair.clear ? since > pair.slack : since > 0)) {
@@ -61,6 +63,18 @@ class Courses {
   PathVerdict check(const world::World& world, const Candidate& pair, const Path& a, const Path& b,
                     PathOptions options);
 
+  // For loops over all candidates, at the i-th: begins to fetch what is known of later ones. Of a pile it is more than caches hold,
+  // and lies wherever it was made.
+  void fetch_ahead(std::size_t i) const {
+    constexpr std::size_t kPair = 12, kPoints = 6, kLine = 64;
+    const auto fetch = [](const void* start, std::size_t bytes) {
+      for (std::size_t k = 0; k < bytes; k += kLine) __builtin_prefetch(static_cast<const char*>(start) + k);
+    };
+    if (i + kPair < candidates.size()) fetch(candidates[i + kPair].contacts, sizeof(PairContacts));
+    if (i + kPoints >= candidates.size()) return;
+    const std::vector<ContactPoint>& points = candidates[i + kPoints].contacts->points;
+    fetch(points.data(), points.size() * sizeof(ContactPoint));
+  }
   // The members, with these velocities.
   std::vector<RigidBody> with(const std::vector<Twist>& velocities) const;
 

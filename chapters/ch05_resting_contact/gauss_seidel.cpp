@@ -1,7 +1,9 @@
 #include "ch05_resting_contact/gauss_seidel.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <numeric>
 
 namespace fc::resting {
 namespace {
@@ -25,9 +27,9 @@ double along(const Vec3& normal, const Vec3& arm_a, const Vec3& arm_b, const Twi
 
 void GaussSeidel::clear() {
   rows_.clear();
-  lines_.clear();
-  arms_.clear();
-  points_.clear();
+  place_.clear();
+  sources_.clear();
+  arranged_ = 0;
   masses_.clear();
   velocities_.clear();
   paths_.clear();
@@ -35,9 +37,13 @@ void GaussSeidel::clear() {
 }
 
 void GaussSeidel::add_body(const RigidBody& body, const Twist& velocity, const Twist& path) {
-  Mass mass{body.position, body.inverse_mass * body.free_moves,
-            std::sqrt(body.inverse_mass) * body.free_moves, Mat3::Zero(), Mat3::Zero()};
-  if (!body.is_static()) {
+  Mass mass{body.position,
+            body.inverse_mass * body.free_moves,
+            std::sqrt(body.inverse_mass) * body.free_moves,
+            Mat3::Zero(),
+            Mat3::Zero(),
+            !body.is_static()};
+  if (mass.moves) {
     mass.turn = body.inverse_inertia_world();
     mass.turn_root = root_of(body, mass.turn);
   }
@@ -50,31 +56,33 @@ void GaussSeidel::add_body(const RigidBody& body, const Twist& velocity, const T
 int GaussSeidel::add(const lcp::Contact& c, double approach_limit, double room, double impulse,
                      double correction) {
   const Mass &a = masses_[at(c.body_a)], &b = masses_[at(c.body_b)];
-  Arms arms{c.normal, Vec3::Zero(), Vec3::Zero()};
-  if (c.turns_a) arms.a = (c.point - a.place).cross(c.normal);
-  if (c.turns_b) arms.b = (c.point - b.place).cross(c.normal);
-  const Vec3 move_a = -a.root.cwiseProduct(c.normal), turn_a = -(a.turn_root.transpose() * arms.a);
-  const Vec3 move_b = b.root.cwiseProduct(c.normal), turn_b = b.turn_root.transpose() * arms.b;
+  Source source{c.normal, Vec3::Zero(), Vec3::Zero(), c.point, 0, 0, 0};
+  if (c.turns_a) source.arm_a = (c.point - a.place).cross(c.normal);
+  if (c.turns_b) source.arm_b = (c.point - b.place).cross(c.normal);
+  const Vec3 move_a = -a.root.cwiseProduct(c.normal), turn_a = -(a.turn_root.transpose() * source.arm_a);
+  const Vec3 move_b = b.root.cwiseProduct(c.normal), turn_b = b.turn_root.transpose() * source.arm_b;
   const double root =
       std::sqrt(move_a.squaredNorm() + turn_a.squaredNorm() + move_b.squaredNorm() + turn_b.squaredNorm());
-  const auto end = [&](const Vec3& move, const Vec3& turn) {
-    Vec8 line = Vec8::Zero();
-    line.head<3>() = (move / root).array().cast<float>();
-    line.segment<3>(3) = (turn / root).array().cast<float>();
-    return line;
+  const double inverse = 1 / root;
+  const auto line = [&](const Vec3& move, const Vec3& turn) {
+    Vec8 result = Vec8::Zero();
+    result.head<3>() = (inverse * move).array().cast<float>();
+    result.segment<3>(3) = (inverse * turn).array().cast<float>();
+    return result;
   };
   const auto start = [&](const std::vector<Twist>& twists) {
-    return along(c.normal, arms.a, arms.b, twists[at(c.body_a)], twists[at(c.body_b)]);
+    return along(c.normal, source.arm_a, source.arm_b, twists[at(c.body_a)], twists[at(c.body_b)]);
   };
   const double path_start = start(paths_);
-  rows_.push_back({c.body_a, c.body_b, static_cast<float>(impulse * root),
-                   static_cast<float>(correction * root),
-                   static_cast<float>((start(velocities_) + approach_limit) / root),
-                   static_cast<float>((path_start + room) / root), static_cast<float>(root),
-                   static_cast<float>(path_start / root)});
-  lines_.push_back({end(move_a, turn_a), end(move_b, turn_b)});
-  arms_.push_back(arms);
-  points_.push_back(c.point);
+  source.root = static_cast<float>(root);
+  source.path_start = static_cast<float>(inverse * path_start);
+  source.start = start(velocities_);
+  place_.push_back(rows());
+  sources_.push_back(source);
+  rows_.push_back({line(move_a, turn_a), line(move_b, turn_b), c.body_a, c.body_b,
+                   static_cast<float>(impulse * root), static_cast<float>(correction * root),
+                   static_cast<float>(inverse * (source.start + approach_limit)),
+                   static_cast<float>(inverse * (path_start + room))});
   return rows() - 1;
 }
 
@@ -83,38 +91,89 @@ void GaussSeidel::end_pair(int, int, int, std::span<const Vec3>) {}
 // ANCHOR: sweep
 template <bool kVelocities, bool kPaths>
 void GaussSeidel::sweep() {
-  for (std::size_t r = 0; r < rows_.size(); ++r) {
-    Row& row = rows_[r];
-    const Line& line = lines_[r];
+  for (Row& row : rows_) {
     State &a = states_[at(row.a)], &b = states_[at(row.b)];
     if constexpr (kVelocities) {
-      const float w = (line.a * a.velocity + line.b * b.velocity).sum() + row.approach_limit;
+      const float w = (row.line_a * a.velocity + row.line_b * b.velocity).sum() + row.approach_limit;
       const float push = std::max(-row.impulse, -w);
       row.impulse += push;
-      a.velocity += push * line.a;
-      b.velocity += push * line.b;
+      a.velocity += push * row.line_a;
+      b.velocity += push * row.line_b;
     }
     if constexpr (kPaths) {
-      const float u = (line.a * a.path + line.b * b.path).sum() + row.room;
+      const float u = (row.line_a * a.path + row.line_b * b.path).sum() + row.room;
       const float push = std::max(-row.correction, -u);
       row.correction += push;
-      a.path += push * line.a;
-      b.path += push * line.b;
+      a.path += push * row.line_a;
+      b.path += push * row.line_b;
     }
   }
   sweep_more(kVelocities, kPaths);
 }
 // ANCHOR_END: sweep
 
+// By colour, and of one colour those with most rows first; else in the order in which they were added.
+void GaussSeidel::sort_pairs() {
+  constexpr int kMost = 31;  // rows that are told apart
+  const auto key = [&](const PairRows& pair) {
+    return at(pair.colour * (kMost + 1) + kMost - std::min<int>(pair.count, kMost));
+  };
+  starts_.assign(64 * (kMost + 1) + 1, 0);
+  for (const PairRows& pair : pairs_) ++starts_[key(pair) + 1];
+  std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
+  sorted_.resize(pairs_.size());
+  for (const PairRows& pair : pairs_) sorted_[at(starts_[key(pair)]++)] = pair;
+  pairs_.swap(sorted_);
+}
+
+// Gives the rows that were added since the last time their places. A row has to wait for the one before it if both move the
+// same body. So pairs of bodies are coloured: no body that can be moved has two pairs of one colour. Of each colour, pairs go in
+// step, eight at a time: the first row of each, then the second of each. Then the processor works on several rows at once.
+void GaussSeidel::arrange() {
+  constexpr int kInStep = 8, kColours = 64;
+  if (arranged_ == rows()) return;
+  pairs_.clear();
+  colours_.assign(masses_.size(), 0);
+  for (int number = arranged_; number < rows(); ++number) {
+    const Row& row = rows_[at(number)];
+    if (number > arranged_ && row.a == rows_[at(number - 1)].a && row.b == rows_[at(number - 1)].b) {
+      ++pairs_.back().count;
+      continue;
+    }
+    const bool moves_a = masses_[at(row.a)].moves, moves_b = masses_[at(row.b)].moves;
+    const std::uint64_t taken = (moves_a ? colours_[at(row.a)] : 0) | (moves_b ? colours_[at(row.b)] : 0);
+    const int colour = std::min(std::countr_one(taken), kColours - 1);  // the last may have to serve more
+    if (moves_a) colours_[at(row.a)] |= std::uint64_t{1} << colour;
+    if (moves_b) colours_[at(row.b)] |= std::uint64_t{1} << colour;
+    pairs_.push_back({number, 1, colour});
+  }
+  sort_pairs();
+  added_.assign(rows_.begin() + arranged_, rows_.end());
+  const int offset = arranged_;
+  for (std::size_t i = 0; i < pairs_.size();) {
+    std::size_t end = i + 1;
+    while (end < pairs_.size() && end < i + kInStep && pairs_[end].colour == pairs_[i].colour) ++end;
+    int most = 0;
+    for (std::size_t j = i; j < end; ++j) most = std::max(most, pairs_[j].count);
+    for (int k = 0; k < most; ++k)
+      for (std::size_t j = i; j < end && k < pairs_[j].count; ++j) {
+        const int number = pairs_[j].first + k;
+        place_[at(number)] = arranged_;
+        rows_[at(arranged_++)] = added_[at(number - offset)];
+      }
+    i = end;
+  }
+  rows_arranged();
+}
+
 void GaussSeidel::apply_guesses() {
   for (State& state : states_) state = {Vec8::Zero(), Vec8::Zero()};
-  for (std::size_t r = 0; r < rows_.size(); ++r) {
-    const Row& row = rows_[r];
+  for (const Row& row : rows_) {
     State &a = states_[at(row.a)], &b = states_[at(row.b)];
-    a.velocity += row.impulse * lines_[r].a;
-    b.velocity += row.impulse * lines_[r].b;
-    a.path += row.correction * lines_[r].a;
-    b.path += row.correction * lines_[r].b;
+    a.velocity += row.impulse * row.line_a;
+    b.velocity += row.impulse * row.line_b;
+    a.path += row.correction * row.line_a;
+    b.path += row.correction * row.line_b;
   }
   apply_more_guesses();
 }
@@ -123,11 +182,9 @@ void GaussSeidel::apply_guesses() {
 // lowers that, so it is <= 0 but for guesses.
 bool GaussSeidel::gains() const {
   double sum = 0, size = 0;
-  for (std::size_t r = 0; r < rows_.size(); ++r) {
-    const Row& row = rows_[r];
+  for (const Row& row : rows_) {
     if (!(row.impulse > 0)) continue;
-    const State &a = states_[at(row.a)], &b = states_[at(row.b)];
-    const float w = (lines_[r].a * a.velocity + lines_[r].b * b.velocity).sum() + row.approach_limit;
+    const float w = speed(row) + row.approach_limit;
     sum += static_cast<double>(row.impulse) * static_cast<double>(row.approach_limit + w);
     size += static_cast<double>(row.impulse) * static_cast<double>(std::abs(row.approach_limit));
   }
@@ -140,6 +197,7 @@ template <bool kVelocities, bool kPaths>
 int GaussSeidel::run(int sweeps) {
   constexpr int kMore = 4, kMostTimes = 5;
   int count = 0;
+  arrange();
   const auto go_on = [&](int more) {
     for (int k = 0; k < more; ++k) sweep<kVelocities, kPaths>();
     count += more;
@@ -164,64 +222,53 @@ template int GaussSeidel::run<true, false>(int);
 template int GaussSeidel::run<false, true>(int);
 
 void GaussSeidel::set_room(int row, double room) {
-  Row& r = rows_[at(row)];
-  r.room = r.path_start + static_cast<float>(room) / r.root;
+  const Source& source = sources_[at(row)];
+  of_row(row).room = source.path_start + static_cast<float>(room) / source.root;
 }
 
 void GaussSeidel::drop(int row) {
-  Row& r = rows_[at(row)];
-  states_[at(r.a)].velocity -= r.impulse * lines_[at(row)].a;
-  states_[at(r.b)].velocity -= r.impulse * lines_[at(row)].b;
+  Row& r = of_row(row);
+  states_[at(r.a)].velocity -= r.impulse * r.line_a;
+  states_[at(r.b)].velocity -= r.impulse * r.line_b;
   r.impulse = 0;
   r.approach_limit = kNever;
   row_dropped(row);
 }
 
-double GaussSeidel::start_speed(int row) const {
-  const Arms& arms = arms_[at(row)];
-  return along(arms.normal, arms.a, arms.b, velocities_[at(of_row(row).a)], velocities_[at(of_row(row).b)]);
-}
-
 double GaussSeidel::path_speed(int row) const {
-  const Row& r = rows_[at(row)];
-  const Line& line = lines_[at(row)];
-  return static_cast<double>(
-      ((line.a * states_[at(r.a)].path + line.b * states_[at(r.b)].path).sum() + r.path_start) * r.root);
+  const Row& r = of_row(row);
+  const Source& source = sources_[at(row)];
+  const float u = (r.line_a * states_[at(r.a)].path + r.line_b * states_[at(r.b)].path).sum();
+  return static_cast<double>((u + source.path_start) * source.root);
 }
 
-void GaussSeidel::work_out(std::vector<Twist>& velocities, std::vector<Twist>& paths) const {
-  std::vector<Twist>* const results[] = {&velocities, &paths};
-  for (const bool is_path : {false, true}) {
-    std::vector<Twist>& result = *results[is_path];
-    result.assign(masses_.size(), {});  // first the impulses of each body, N s and N m s
-    for (std::size_t r = 0; r < rows_.size(); ++r) {
-      const Row& row = rows_[r];
-      const float scaled = is_path ? row.correction : row.impulse;
-      if (!(scaled > 0)) continue;
-      const double z = static_cast<double>(scaled) / static_cast<double>(row.root);
-      result[at(row.a)].linear -= z * arms_[r].normal;
-      result[at(row.a)].angular -= z * arms_[r].a;
-      result[at(row.b)].linear += z * arms_[r].normal;
-      result[at(row.b)].angular += z * arms_[r].b;
-    }
-    add_momenta(is_path, result);
-    for (std::size_t k = 0; k < masses_.size(); ++k) {
-      const Twist& start = is_path ? paths_[k] : velocities_[k];
-      result[k] = {start.linear + masses_[k].move.cwiseProduct(result[k].linear),
-                   start.angular + masses_[k].turn * result[k].angular};
-    }
+void GaussSeidel::work_out(bool paths, std::vector<Twist>& result) const {
+  result.assign(masses_.size(), {});  // first the impulses of each body, N s and N m s
+  for (int number = 0; number < rows(); ++number) {
+    const Row& row = of_row(number);
+    const float scaled = paths ? row.correction : row.impulse;
+    if (!(scaled > 0)) continue;
+    const Source& source = sources_[at(number)];
+    const double z = static_cast<double>(scaled) / static_cast<double>(source.root);
+    Twist &a = result[at(row.a)], &b = result[at(row.b)];
+    a.linear -= z * source.normal;
+    a.angular -= z * source.arm_a;
+    b.linear += z * source.normal;
+    b.angular += z * source.arm_b;
+  }
+  add_momenta(paths, result);
+  for (std::size_t k = 0; k < masses_.size(); ++k) {
+    const Twist& start = paths ? paths_[k] : velocities_[k];
+    result[k] = {start.linear + masses_[k].move.cwiseProduct(result[k].linear),
+                 start.angular + masses_[k].turn * result[k].angular};
   }
 }
 
 double GaussSeidel::residual() const {
   float worst = 0, largest = 0;
-  for (std::size_t r = 0; r < rows_.size(); ++r) {
-    const Row& row = rows_[r];
-    const float w =
-        (lines_[r].a * states_[at(row.a)].velocity + lines_[r].b * states_[at(row.b)].velocity).sum() +
-        row.approach_limit;
+  for (const Row& row : rows_) {
     if (row.approach_limit < kNever) largest = std::max(largest, std::abs(row.approach_limit));
-    worst = std::max(worst, std::abs(std::min(row.impulse, w)));
+    worst = std::max(worst, std::abs(std::min(row.impulse, speed(row) + row.approach_limit)));
   }
   return largest > 0 ? static_cast<double>(worst / largest) : 0;
 }

@@ -43,44 +43,47 @@ class GaussSeidel {
   void drop(int row);
 
   double impulse(int row) const {
-    return static_cast<double>(of_row(row).impulse) / static_cast<double>(of_row(row).root);
+    return static_cast<double>(of_row(row).impulse) / static_cast<double>(sources_[at(row)].root);
   }  // N s
   // N s, world, on B, all that acts there.
   virtual Vec3 whole_impulse(int row) const { return impulse(row) * normal(row); }
   // Those of the same number share what acts along the surfaces; -1: it has its own.
   virtual int patch_of(int /*row*/) const { return -1; }
-  const Vec3& normal(int row) const { return arms_[at(row)].normal; }
-  double start_speed(int row) const;  // J v_0, m/s
-  double path_speed(int row) const;   // J y
-  // In double precision, from the impulses.
-  void work_out(std::vector<Twist>& velocities, std::vector<Twist>& paths) const;
+  const Vec3& normal(int row) const { return sources_[at(row)].normal; }
+  double start_speed(int row) const { return sources_[at(row)].start; }  // J v_0, m/s
+  double path_speed(int row) const;                                      // J y
+  // In double precision, from the impulses: J v and J y have these.
+  void work_out_velocities(std::vector<Twist>& result) const { work_out(false, result); }
+  void work_out_paths(std::vector<Twist>& result) const { work_out(true, result); }
   // The worst |min(z, w)| over the largest |b|, scaled by the diagonal as in chapter 3; of velocities.
   double residual() const;
 
  protected:
   using Vec8 = Eigen::Array<float, 8, 1>;  // linear and angular part, and two zeros
-  struct Line {
-    Vec8 a, b;
-  };
-  struct State {  // L^-1 of what impulses have changed
+  struct State {                           // L^-1 of what impulses have changed
     Vec8 velocity, path;
   };
-  struct Row {
+  struct Row {            // all that a sweep reads of it
+    Vec8 line_a, line_b;  // of G: A's part, and B's
     int a, b;
     float impulse, correction;   // D^1/2 z, D^1/2 c
     float approach_limit, room;  // D^-1/2 (J v_0 + approach_limit), D^-1/2 (J y_0 + room)
-    float root;                  // D^1/2, kg^-1/2
-    float path_start;            // D^-1/2 J y_0
   };
-  struct Arms {
-    Vec3 normal, a, b;  // m: r x n
+  struct Source {               // what else is known of it
+    Vec3 normal, arm_a, arm_b;  // m: r x n
+    Vec3 point;                 // m
+    float root;                 // D^1/2, kg^-1/2
+    float path_start;           // D^-1/2 J y_0
+    double start;               // m/s, J v_0
   };
   struct Mass {
     Vec3 place, move, root;  // m; 1/kg along each axis that is free, and its root
     Mat3 turn, turn_root;    // 1/(kg m^2), and L
+    bool moves;              // an impulse can move it
   };
-  // What else a sweep looks at, after the rows; what else the guesses do; what else impulses do to the energy, doubled, with its
+  // When rows have got their places; what else a sweep looks at, after the rows; what else the guesses do; what else impulses do to the energy, doubled, with its
   // size (J); and their momenta, N s and N m s, added to those of each body.
+  virtual void rows_arranged() {}
   virtual void sweep_more(bool /*velocities*/, bool /*paths*/) {}
   virtual void apply_more_guesses() {}
   virtual void row_dropped(int /*row*/) {}
@@ -88,21 +91,38 @@ class GaussSeidel {
   virtual void add_gains(double& /*sum*/, double& /*size*/) const {}
   virtual void add_momenta(bool /*paths*/, std::vector<Twist>& /*momenta*/) const {}
 
-  const Row& of_row(int row) const { return rows_[at(row)]; }
+  Row& of_row(int row) { return rows_[at(place_[at(row)])]; }
+  const Row& of_row(int row) const { return rows_[at(place_[at(row)])]; }
+  float speed(const Row& row) const {  // of G, without what v_0 has
+    return (row.line_a * states_[at(row.a)].velocity + row.line_b * states_[at(row.b)].velocity).sum();
+  }
   template <bool kVelocities, bool kPaths>
   int run(int sweeps);
   template <bool kVelocities, bool kPaths>
   void sweep();
   void apply_guesses();
   bool gains() const;
+  void work_out(bool paths, std::vector<Twist>& result) const;
 
-  std::vector<Row> rows_;
-  std::vector<Line> lines_;
-  std::vector<Arms> arms_;
-  std::vector<Vec3> points_;  // m, of each row
+  std::vector<Row> rows_;        // in the order of a sweep
+  std::vector<int> place_;       // there, of each row by its number
+  std::vector<Source> sources_;  // of each row by its number
   std::vector<Mass> masses_;
   std::vector<Twist> velocities_, paths_;
   std::vector<State> states_;
+
+ private:
+  struct PairRows {  // rows of the same two bodies, added one after the other
+    int first, count, colour;
+  };
+  void arrange();
+  void sort_pairs();
+
+  int arranged_ = 0;  // so many rows have their place
+  std::vector<PairRows> pairs_, sorted_;
+  std::vector<int> starts_;
+  std::vector<std::uint64_t> colours_;  // of each body's pairs, a bit each
+  std::vector<Row> added_;
 };
 
 }  // namespace fc::resting

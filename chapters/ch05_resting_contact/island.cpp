@@ -69,18 +69,26 @@ Island IslandFinder::grow(const world::World& world, int body, const std::vector
 
 std::vector<std::vector<int>> find_piles(const world::World& world, Contacts& contacts, double dt,
                                          double most_work,
-                                         const std::function<double(double, int)>& event_work) {
+                                         const std::function<double(double, int)>& event_work,
+                                         const std::vector<std::vector<int>>& known) {
   const std::size_t count = world.bodies.size();
   std::vector<int> parent(count), arrivals(count, 0), points(count, 0);
+  std::vector<char> piled(
+      count, event_work(0, 0) > most_work);  // of each root: its group is a pile, whatever else is in it
   std::iota(parent.begin(), parent.end(), 0);
   const auto root = [&](int body) {
     while (parent[at(body)] != body) body = parent[at(body)] = parent[at(parent[at(body)])];
     return body;
   };
+  for (const std::vector<int>& pile : known) {  // in order
+    for (const int body : pile) parent[at(body)] = pile.front();
+    piled[at(pile.front())] = 1;
+  }
   world.schedule.overlapping_pairs([&](int a, int b) {
     if (!world.is_dynamic(a) || !world.is_dynamic(b) || world.bodies[at(a)].sensor ||
         world.bodies[at(b)].sensor)
       return;
+    if (root(a) == root(b) && piled[at(root(a))]) return;
     PairContacts& pair = contacts.pair(a, b);
     const RigidBody &first = world.bodies[at(pair.a)].state, &second = world.bodies[at(pair.b)].state;
     const double gap = contacts.least_gap(world, pair, first.pose(), second.pose());
@@ -90,23 +98,25 @@ std::vector<std::vector<int>> find_piles(const world::World& world, Contacts& co
     if (gap - distance > contacts.margin()) return;
     const int low = std::min(root(a), root(b)), high = std::max(root(a), root(b));
     parent[at(high)] = low;
+    piled[at(low)] = piled[at(low)] || piled[at(high)];
     if (high != low) {
       arrivals[at(low)] += arrivals[at(high)];
       points[at(low)] += points[at(high)];
     }
     if (!pair.known && Contacts::convex(world, pair))
       contacts.update(world, pair, first.pose(), second.pose());
-    const int known = pair.rank();
-    if (known == 0 || pair.gap > contacts.margin())
+    const int rank = pair.rank();
+    if (rank == 0 || pair.gap > contacts.margin())
       ++arrivals[at(low)];
     else
-      points[at(low)] += known;
+      points[at(low)] += rank;
+    piled[at(low)] = piled[at(low)] || event_work(arrivals[at(low)], points[at(low)]) > most_work;
   });
   std::vector<std::vector<int>> piles;
   std::vector<int> pile_of(count, -1);
   for (int body = 0; body < static_cast<int>(count); ++body) {
     const auto first = at(root(body));
-    if (event_work(arrivals[first], points[first]) <= most_work) continue;
+    if (!piled[first]) continue;
     if (pile_of[first] < 0) {
       pile_of[first] = static_cast<int>(piles.size());
       piles.emplace_back();

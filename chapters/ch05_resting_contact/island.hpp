@@ -66,9 +66,11 @@ class IslandFinder {
 };
 
 // Groups of bodies that are in contact, or may come into contact with each other within dt seconds from a frame's start on,
-// that would be too much work: event_work(arrivals, rank). Their boxes are in the schedule.
+// that would be too much work: event_work(arrivals, rank). Their boxes are in the schedule. `known`: groups of which this need not
+// be found out.
 std::vector<std::vector<int>> find_piles(const world::World& world, Contacts& contacts, double dt,
                                          double most_work,
-                                         const std::function<double(double, int)>& event_work);
+                                         const std::function<double(double, int)>& event_work,
+                                         const std::vector<std::vector<int>>& known);
 
 }  // namespace fc::resting

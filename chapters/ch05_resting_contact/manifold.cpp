@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 #include <utility>
 
 namespace fc::resting {
@@ -26,6 +27,7 @@ struct Polygon {
   void add(const Corner& corner) {
     if (count < static_cast<int>(corners.size())) corners[static_cast<std::size_t>(count++)] = corner;
   }
+  std::span<const Corner> all() const { return {corners.data(), static_cast<std::size_t>(count)}; }
 };
 
 // The plane across the normal, and what lies in it.
@@ -84,18 +86,18 @@ void project(const ManifoldSide& side, int face, const Mat3& rotation, const Vec
 }
 
 // Cuts the subject by the line from p to q (number `line`); what is left of it stays (Sutherland, Hodgman).
-void cut(const Polygon& subject, const Corner& p, const Corner& q, int line, Polygon& result) {
+void cut(std::span<const Corner> subject, const Corner& p, const Corner& q, int line, Polygon& result) {
   const double dx = q.x - p.x, dy = q.y - p.y;
   const auto inside = [&](const Corner& c) { return dx * (c.y - p.y) - dy * (c.x - p.x); };
   result.count = 0;
-  if (subject.count == 0) return;
-  const bool closed = subject.count > 2;
-  for (int k = 0; k < subject.count; ++k) {
-    const Corner& from = subject.corners[static_cast<std::size_t>(k)];
+  const std::size_t count = subject.size();
+  const bool closed = count > 2;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Corner& from = subject[k];
     const double here = inside(from);
     if (here >= 0) result.add(from);
-    if (k + 1 == subject.count && !closed) break;
-    const Corner& to = subject.corners[static_cast<std::size_t>(k + 1 == subject.count ? 0 : k + 1)];
+    if (k + 1 == count && !closed) break;
+    const Corner& to = subject[k + 1 == count ? 0 : k + 1];
     const double there = inside(to);
     if ((here >= 0) == (there >= 0)) continue;
     const double t = here / (here - there);
@@ -194,20 +196,20 @@ struct ManifoldPoints {
 
   // Two faces, or a face and less: the one with fewer corners is cut by the other one's sides.
   void cut_faces(const Polygon& first, const Polygon& second) {
-    static thread_local Polygon shared, other;
+    static thread_local Polygon results[2];
     const bool swap = second.count < first.count;
     const Polygon &subject = swap ? second : first, &cutter = swap ? first : second;
     const Plane plane((swap ? a : b).normal(), cutter.corners[0], frame);
-    shared = subject;
+    std::span<const Corner> shared = subject.all();
     for (int k = 0; k < cutter.count; ++k) {
+      Polygon& result = results[k % 2];
       cut(shared, cutter.corners[static_cast<std::size_t>(k)],
           cutter.corners[static_cast<std::size_t>(k + 1 == cutter.count ? 0 : k + 1)], kMostCorners + k,
-          other);
-      std::swap(shared, other);
+          result);
+      shared = result.all();
     }
     const auto bits = [](int value) { return static_cast<std::uint64_t>(value + 1) & 0xffff; };
-    for (int k = 0; k < shared.count; ++k) {
-      const Corner& c = shared.corners[static_cast<std::size_t>(k)];
+    for (const Corner& c : shared) {
       const double across = plane.height(c);
       add_at(c.x, c.y, swap ? across : c.height, swap ? c.height : across,
              bits(a.face) << 48 | bits(b.face) << 32 | bits(c.line_in) << 16 | bits(c.line_out));

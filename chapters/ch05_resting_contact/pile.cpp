@@ -118,7 +118,6 @@ Planned PilePlanner::make(const world::World& world, std::span<const Member> mem
   options_ = options;
   rows_.clear();
   late_.clear();
-  first_row_.clear();
   blocked_.clear();
   lost_ = 0;
   shortened_ = 0;
@@ -126,22 +125,21 @@ Planned PilePlanner::make(const world::World& world, std::span<const Member> mem
   courses_.start(world, members, now, length);
   courses_.find(world, true);
   add_bodies();
+  first_row_.assign(courses_.candidates.size(), -1);
   for (int i = 0; i < static_cast<int>(courses_.candidates.size()); ++i) {
-    const int count = static_cast<int>(courses_.candidates[at(i)].contacts->points.size());
-    const int first = rows();
-    for (int place = 0; place < count; ++place) add_row(world, i, place, false);
-    end_pair(i, first);
+    courses_.fetch_ahead(at(i));
+    add_pair(world, i);
   }
   swept_ = gauss_seidel_->run(std::max(options_.sweeps, options_.visits / (1 + rows())));
   find_paths(world);
   shares_.assign(courses_.members.size(), 1);
   Shortening(world, courses_, shares_, blocked_).run(kPathFloor * contacts_.margin());
+  drop_what_acts_on_air();
   for (std::size_t i = 0; i < shares_.size(); ++i) {
     if (shares_[i] == 1) continue;
     ++shortened_;
     lost_ += (1 - shares_[i]) * courses_.members[i].state.mass * velocities_[i].linear.norm();
   }
-  drop_what_acts_on_air();
   return take(world);
 }
 
@@ -169,11 +167,12 @@ lcp::Contact PilePlanner::contact_of(const world::World& world, const Row& row) 
   const Candidate& pair = courses_.candidates[at(row.pair)];
   const Pose &a = courses_.paths[at(pair.a)].start, &b = courses_.paths[at(pair.b)].start;
   const ContactPoint& point = point_of(row);
+  const Vec3 normal = point.normal_at(a, b), on_a = point.a.at(a, normal), on_b = point.b.at(b, -normal);
   return {pair.a,
           pair.b,
-          point.middle(a, b),
-          point.normal_at(a, b),
-          point.gap_at(a, b),
+          0.5 * (on_a + on_b),
+          normal,
+          normal.dot(on_b - on_a),
           0,
           world.turns(courses_.members[at(pair.a)].number),
           world.turns(courses_.members[at(pair.b)].number)};
@@ -190,10 +189,33 @@ void PilePlanner::end_pair(int candidate, int first) {
   gauss_seidel_->end_pair(first, pair.a, pair.b, guesses_);
 }
 
-int PilePlanner::add_row(const world::World& world, int candidate, int place, bool late) {
-  first_row_.resize(courses_.candidates.size(), -1);
+// Its rows, of the points that it has at the start. Most share one normal.
+void PilePlanner::add_pair(const world::World& world, int candidate) {
+  const Candidate& pair = courses_.candidates[at(candidate)];
+  const std::vector<ContactPoint>& points = pair.contacts->points;
+  if (points.empty()) return;
+  const Pose &a = courses_.paths[at(pair.a)].start, &b = courses_.paths[at(pair.b)].start;
+  lcp::Contact contact;
+  contact.body_a = pair.a;
+  contact.body_b = pair.b;
+  contact.turns_a = world.turns(pair.contacts->a);
+  contact.turns_b = world.turns(pair.contacts->b);
+  const int first = rows();
+  for (std::size_t place = 0; place < points.size(); ++place) {
+    const ContactPoint& point = points[place];
+    const ContactPoint& last = points[place == 0 ? 0 : place - 1];
+    if (place == 0 || point.balls || point.of_b != last.of_b || point.local_normal != last.local_normal)
+      contact.normal = point.normal_at(a, b);
+    const Vec3 on_a = point.a.at(a, contact.normal), on_b = point.b.at(b, -contact.normal);
+    contact.point = 0.5 * (on_a + on_b);
+    contact.gap = contact.normal.dot(on_b - on_a);
+    add_row(contact, candidate, static_cast<int>(place), false);
+  }
+  end_pair(candidate, first);
+}
+
+int PilePlanner::add_row(const lcp::Contact& contact, int candidate, int place, bool late) {
   Row row{candidate, place, first_row_[at(candidate)], 0, late, late};
-  const lcp::Contact contact = contact_of(world, row);
   const double margin = contacts_.margin(), length = courses_.length();
   row.arrives = late || contact.gap > margin;
   const double guess = late ? 0 : contact.normal.dot(point_of(row).force) * length;
@@ -210,10 +232,11 @@ int PilePlanner::add_row(const world::World& world, int candidate, int place, bo
 void PilePlanner::find_paths(const world::World& world) {
   const double floor = kPathFloor * contacts_.margin();
   for (int round = 0;; ++round) {
-    gauss_seidel_->work_out(velocities_, paths_);
+    gauss_seidel_->work_out_paths(paths_);
     for (std::size_t i = 0; i < paths_.size(); ++i) courses_.go(static_cast<int>(i), paths_[i]);
     courses_.find(world, true);
     add_bodies();
+    first_row_.resize(courses_.candidates.size(), -1);
     const PathOptions options{
         .required_gap = floor, .most_pairs = kMostNodePairs, .by_planes = true, .whole = true};
     const bool clear = courses_.prove(world, [&](const Candidate&) { return options; });
@@ -233,7 +256,6 @@ void PilePlanner::look_again(const world::World& world, int candidate) {
     const double gap = point_of(rows_[at(row)]).gap_at(a.end, b.end);
     gauss_seidel_->set_room(row, (gap - rest) / courses_.length() - gauss_seidel_->path_speed(row));
   };
-  first_row_.resize(courses_.candidates.size(), -1);
   for (int row = first_row_[at(candidate)]; row >= 0; row = rows_[at(row)].next) correct(row);
   double gap = 0;
   const int first = rows();
@@ -243,7 +265,8 @@ void PilePlanner::look_again(const world::World& world, int candidate) {
       known = point_of(rows_[at(row)]).is_same(point, contacts_.margin());
     if (known) continue;
     late_.push_back(point);
-    correct(add_row(world, candidate, static_cast<int>(late_.size()) - 1, true));
+    const int place = static_cast<int>(late_.size()) - 1;
+    correct(add_row(contact_of(world, {candidate, place, -1, 0, true, true}), candidate, place, true));
   }
   end_pair(candidate, first);
 }
@@ -265,8 +288,7 @@ void PilePlanner::drop_what_acts_on_air() {
     if (!any) break;
     if (times + 1 < kMostTimes) swept_ += gauss_seidel_->run_velocities(kSweeps);
   }
-  std::vector<Twist> paths;
-  gauss_seidel_->work_out(velocities_, paths);
+  gauss_seidel_->work_out_velocities(velocities_);
 }
 
 // What bounces gives back what its restitution says, with the largest factor <= 1 for all with which this takes no more energy
@@ -315,32 +337,24 @@ void PilePlanner::remember() const {
   }
 }
 
-// All impulses act at the end.
-Planned PilePlanner::take(const world::World& world) {
+// What the rows did. swept, bounced: the members at the end, before and after they give back.
+void PilePlanner::report_rows(const world::World& world, std::span<const RigidBody> swept,
+                              std::span<const RigidBody> bounced, Planned& result) const {
   std::vector<Twist> without;
   for (std::size_t i = 0; i < courses_.members.size(); ++i) without.push_back(free_velocities(i));
-  const std::vector<RigidBody> swept = courses_.with(velocities_), free = courses_.with(without);
-  std::vector<RigidBody> bounced = swept;
-  give_back(world, bounced);
-  remember();
-  Planned result;
+  const std::vector<RigidBody> free = courses_.with(without);
   for (int i = 0; i < rows(); ++i) {
     const Row& row = rows_[at(i)];
     const Candidate& pair = courses_.candidates[at(row.pair)];
-    const double z = gauss_seidel_->impulse(i);
-    if (!(z > 0)) continue;
-    ++result.pushing;
-    const bool kinematic =
-        world.is_moving_kinematic(pair.contacts->a) || world.is_moving_kinematic(pair.contacts->b);
-    if (!kinematic && !options_.report_rows) continue;
+    if (!(gauss_seidel_->impulse(i) > 0)) continue;
     PlannedRow reported;
     reported.contact = contact_of(world, row);
-    const Vec3 impulse = gauss_seidel_->whole_impulse(i), back = back_[at(i)] * reported.contact.normal;
-    if (kinematic)
-      result.kinematic_work += lcp::kinematic_work(swept, reported.contact, Vec3(impulse + back));
+    reported.impulse = gauss_seidel_->whole_impulse(i);
+    reported.back = back_[at(i)] * reported.contact.normal;
+    if (world.is_moving_kinematic(pair.contacts->a) || world.is_moving_kinematic(pair.contacts->b))
+      result.kinematic_work +=
+          lcp::kinematic_work(swept, reported.contact, Vec3(reported.impulse + reported.back));
     if (!options_.report_rows) continue;
-    reported.impulse = impulse;
-    reported.back = back;
     reported.before = lcp::relative_velocity(free, reported.contact);
     reported.after = lcp::relative_velocity(bounced, reported.contact);
     reported.key = point_of(row).key;
@@ -355,19 +369,34 @@ Planned PilePlanner::take(const world::World& world) {
     reported.contact.body_b = pair.contacts->b;
     result.rows.push_back(reported);
   }
+}
+
+// All impulses act at the end.
+Planned PilePlanner::take(const world::World& world) {
+  std::vector<RigidBody> bodies = courses_.with(velocities_);
+  Planned result;
+  const bool any_kinematic =
+      std::any_of(courses_.members.begin(), courses_.members.end(),
+                  [&](const Member& m) { return world.is_moving_kinematic(m.number); });
+  const bool reports = options_.report_rows || any_kinematic;
+  const std::vector<RigidBody> swept = reports ? bodies : std::vector<RigidBody>{};
+  give_back(world, bodies);
+  remember();
+  if (reports) report_rows(world, swept, bodies, result);
+  for (int i = 0; i < rows(); ++i) result.pushing += gauss_seidel_->impulse(i) > 0;
   double gained = -result.kinematic_work, size = 0;
-  for (std::size_t i = 0; i < swept.size(); ++i) {
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
     const Member& member = courses_.members[i];
     if (!member.dynamic) continue;
     const Path& path = courses_.paths[i];
     const double share = shares_[i];  // of what it has at the end, too
+    const Twist without = free_velocities(i);
     result.bodies.push_back(member.number);
-    result.motions.push_back(
-        planned_motion(member, {path.velocity, path.spin}, without[i], courses_.length()));
+    result.motions.push_back(planned_motion(member, {path.velocity, path.spin}, without, courses_.length()));
     result.arrivals.push_back(
-        {share * bounced[i].velocity - without[i].linear, share * bounced[i].spin - without[i].angular});
+        {share * bodies[i].velocity - without.linear, share * bodies[i].spin - without.angular});
     const double before = member.state.kinetic_energy(), slow = contacts_.margin() / courses_.length();
-    gained += share * share * bounced[i].kinetic_energy() - before;
+    gained += share * share * bodies[i].kinetic_energy() - before;
     if (world.effects.gravity)
       gained -= member.state.mass * world.effects.gravity->dot(path.end.position - path.start.position);
     size += before + 0.5 * member.state.mass * slow * slow;

@@ -63,12 +63,15 @@ class PilePlanner {
   Twist free_velocities(std::size_t i) const;
   void add_bodies();
   void end_pair(int candidate, int first);
-  int add_row(const world::World& world, int candidate, int place, bool late);
+  void add_pair(const world::World& world, int candidate);
+  int add_row(const lcp::Contact& contact, int candidate, int place, bool late);
   void find_paths(const world::World& world);
   void look_again(const world::World& world, int candidate);
   void drop_what_acts_on_air();
   void remember() const;
   void give_back(const world::World& world, std::vector<RigidBody>& bodies);
+  void report_rows(const world::World& world, std::span<const RigidBody> swept,
+                   std::span<const RigidBody> bounced, Planned& result) const;
   Planned take(const world::World& world);
 
   Contacts& contacts_;

@@ -4,8 +4,15 @@
 #include <utility>
 
 namespace fc::resting {
+namespace {
+
+constexpr int kCalm = 3;  // frames
+
+}  // namespace
 
 void PileList::begin(std::size_t bodies, std::vector<std::vector<int>> found) {
+  calm_.resize(bodies, 0);
+  for (int& frames : calm_) ++frames;
   piles_.clear();
   pile_of_.assign(bodies, -1);
   for (const std::vector<int>& pile : found) unite(pile);
@@ -38,6 +45,22 @@ void PileList::unite(std::span<const int> bodies) {
   }
   std::sort(pile.bodies.begin(), pile.bodies.end());
   pile.done = false;
+}
+
+std::vector<std::vector<int>> PileList::large(std::size_t bodies) const {
+  std::vector<std::vector<int>> found;
+  for (const Pile& pile : piles_)
+    if (pile.bodies.size() >= bodies) found.push_back(pile.bodies);
+  return found;
+}
+
+bool PileList::is_calm(const Pile& pile) const {
+  return std::all_of(pile.bodies.begin(), pile.bodies.end(),
+                     [&](int body) { return calm_[static_cast<std::size_t>(body)] > kCalm; });
+}
+
+void PileList::was_shortened(const Pile& pile) {
+  for (const int body : pile.bodies) calm_[static_cast<std::size_t>(body)] = 0;
 }
 
 }  // namespace fc::resting

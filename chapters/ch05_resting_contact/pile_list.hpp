@@ -23,10 +23,16 @@ class PileList {
   Pile* of(int body);
   // One pile of these bodies, and of all that are in a pile with one of them.
   void unite(std::span<const int> bodies);
+  // Those of the last frame with at least so many bodies.
+  std::vector<std::vector<int>> large(std::size_t bodies) const;
+  // Whether no path of its bodies was shortened for some frames.
+  bool is_calm(const Pile& pile) const;
+  void was_shortened(const Pile& pile);
 
  private:
   std::vector<Pile> piles_;
   std::vector<int> pile_of_;
+  std::vector<int> calm_;  // of each body: frames since a path was shortened in its pile
 };
 
 }  // namespace fc::resting

@@ -24,6 +24,10 @@ constexpr double kShortest = 1.0 / 4096;
 constexpr int kManyRows = 100;
 constexpr double kShortestOfPile = 1.0 / 512;
 
+// A pile of so many bodies stays one until a frame whose number can be divided by this.
+constexpr std::size_t kLarge = 100;
+constexpr int kLookAgain = 8;
+
 // A plan that would leave less than this part of what is left of the frame takes it all.
 constexpr double kNearlyAll = 0.75;
 
@@ -118,9 +122,12 @@ std::vector<int> Resting::begin(world::World& world, double dt, world::StepRepor
   standing_.begin(world, envelope(), dt);
   plans_.clear();
   free_plans_.clear();
-  piles_.begin(world.bodies.size(),
-               find_piles(world, contacts_, dt, options_.most_work,
-                          [&](double arrivals, int rank) { return law_->event_work(arrivals, rank); }));
+  piles_.begin(
+      world.bodies.size(),
+      find_piles(
+          world, contacts_, dt, options_.most_work,
+          [&](double arrivals, int rank) { return law_->event_work(arrivals, rank); },
+          contacts_.frame() % kLookAgain == 0 ? std::vector<std::vector<int>>{} : piles_.large(kLarge)));
   Instant instant{world, 0, report, listeners};
   for (int body = 0; body < static_cast<int>(world.bodies.size()); ++body)
     if (world.is_dynamic(body) && !world.bodies[at(body)].asleep) instant.bodies.push_back(body);
@@ -391,8 +398,8 @@ bool Resting::plan(Instant& instant, Island& island) {
   return true;
 }
 
-// A pile has no impacts of its own, only plans: two in a frame; and more, if it is so small that shorter plans cost less than
-// paths that are shortened.
+// A pile has no impacts of its own, only plans: one in a frame while it is calm, else two; and more, if it is so small that shorter
+// plans cost less than paths that are shortened.
 void Resting::go_on(Instant& instant, PileList::Pile& pile) {
   pile.done = true;
   std::vector<Member> members;
@@ -401,7 +408,9 @@ void Resting::go_on(Instant& instant, PileList::Pile& pile) {
   wake(instant.world, members, instant.report);
   set_motions(instant, members, before, work);
   if (instant.now >= dt_) return;
-  const double half = instant.now < (0.5 - kShortest) * dt_ ? 0.5 * dt_ : dt_, left = half - instant.now;
+  const bool first = instant.now < (0.5 - kShortest) * dt_;
+  bool whole = first && piles_.is_calm(pile);
+  double end = first && !whole ? 0.5 * dt_ : dt_, left = end - instant.now;
   PileOptions options;
   options.frame = dt_;
   options.sweeps = options_.sweeps;
@@ -413,6 +422,13 @@ void Resting::go_on(Instant& instant, PileList::Pile& pile) {
     planned = pile_planner_.make(instant.world, members, instant.now, length, options);
     report_.checked += pile_planner_.checked();
     report_.sweeps += pile_planner_.sweeps();
+    const bool is_clear = pile_planner_.blocked().empty() && pile_planner_.shortened() == 0;
+    if (!is_clear) piles_.was_shortened(pile);
+    if (std::exchange(whole, false) && !(is_clear && !pile_planner_.gains())) {
+      end = 0.5 * dt_;
+      length = left = end - instant.now;
+      continue;
+    }
     const bool blocked = !pile_planner_.blocked().empty() && !stopped;
     const bool is_small = blocked || pile_planner_.rows() <= kManyRows;
     const bool is_short = pile_planner_.shortened() > 0 && !pile.jammed;
@@ -439,7 +455,7 @@ void Resting::go_on(Instant& instant, PileList::Pile& pile) {
   instant.report.contacts += pile_planner_.rows();
   ++instant.report.solves;
   start(instant, std::make_shared<const Planned>(std::move(planned)),
-        length == left ? half : instant.now + length);
+        length == left ? end : instant.now + length);
 }
 
 // Whether nobody moves by it.

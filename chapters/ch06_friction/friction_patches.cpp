@@ -14,6 +14,7 @@ void PatchedGaussSeidel::clear() {
   patches_.clear();
   members_.clear();
   patch_of_.clear();
+  arranged_ = 0;
 }
 
 void PatchedGaussSeidel::end_pair(int first, int world_a, int world_b, std::span<const Vec3> guesses) {
@@ -30,22 +31,22 @@ void PatchedGaussSeidel::end_pair(int first, int world_a, int world_b, std::span
   const Mass &a = masses_[at(patch.a)], &b = masses_[at(patch.b)];
 
   // The plane is that of the first row; points of the others may lie a little beside it.
-  const Vec3 n = patch.normal = arms_[at(first)].normal;
+  const Vec3 n = patch.normal = sources_[at(first)].normal;
   Vec3 centre = Vec3::Zero(), tangential = Vec3::Zero();
   double weight = 0;
   for (int row = first; row < rows(); ++row) {
     const double normal = std::max(0.0, guesses[at(row - first)].dot(n)) + 1e-30;
-    centre += normal * points_[at(row)];
+    centre += normal * sources_[at(row)].point;
     weight += normal;
     tangential += guesses[at(row - first)] - guesses[at(row - first)].dot(n) * n;
   }
   centre /= weight;
   double twist = 0;
   for (int row = first; row < rows(); ++row) {
-    Vec3 arm = points_[at(row)] - centre;
+    Vec3 arm = sources_[at(row)].point - centre;
     arm -= n.dot(arm) * n;
     twist += n.dot(arm.cross(guesses[at(row - first)]));
-    members_.push_back({row, 1 / of_row(row).root, static_cast<float>(arm.norm()), arm});
+    members_.push_back({row, row, 1 / sources_[at(row)].root, static_cast<float>(arm.norm()), arm});
   }
 
   const Mat3 frame = contact_frame(n);
@@ -100,13 +101,27 @@ void PatchedGaussSeidel::end_pair(int first, int world_a, int world_b, std::span
   patches_.push_back(patch);
 }
 
+// As their rows: patches that follow each other share no body.
+void PatchedGaussSeidel::rows_arranged() {
+  for (Member& member : members_) member.place = place_[at(member.row)];
+  std::sort(patches_.begin() + static_cast<std::ptrdiff_t>(arranged_), patches_.end(),
+            [&](const Patch& x, const Patch& y) {
+              return members_[at(x.first)].place < members_[at(y.first)].place;
+            });
+  for (; arranged_ < patches_.size(); ++arranged_) {
+    const Patch& patch = patches_[arranged_];
+    for (int i = patch.first; i < patch.end; ++i)
+      patch_of_[at(members_[at(i)].row)] = static_cast<int>(arranged_);
+  }
+}
+
 // ANCHOR: patch
 template <bool kVelocities>
 void PatchedGaussSeidel::sweep(Patch& patch) {
   float load = 0, moment = 0;  // N s, N m s
   for (int i = patch.first; i < patch.end; ++i) {
     const Member& member = members_[at(i)];
-    const Row& row = rows_[at(member.row)];
+    const Row& row = rows_[at(member.place)];
     const float normal = (kVelocities ? row.impulse : row.correction) * member.inverse_root;
     load += normal;
     moment += normal * member.distance;

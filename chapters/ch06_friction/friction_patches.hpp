@@ -25,6 +25,9 @@ class PatchedGaussSeidel : public resting::GaussSeidel {
   }
 
  private:
+  struct Line {  // of G: A's part, and B's
+    Vec8 a, b;
+  };
   struct Patch {
     int a, b;        // bodies, by their numbers here
     int first, end;  // of its rows, among members_
@@ -36,13 +39,14 @@ class PatchedGaussSeidel : public resting::GaussSeidel {
     Vec3 normal, tangents[2], arms_a[2], arms_b[2];  // m: r x t
   };
   struct Member {
-    int row;
+    int row, place;
     float inverse_root, distance;  // m, from the centre
     Vec3 arm;                      // m, from the centre to the point, along the surface
   };
   template <bool kVelocities>
   void sweep(Patch& patch);
 
+  void rows_arranged() override;
   void sweep_more(bool velocities, bool paths) override;
   void apply_more_guesses() override;
   void row_dropped(int row) override;
@@ -54,6 +58,7 @@ class PatchedGaussSeidel : public resting::GaussSeidel {
   std::vector<Patch> patches_;
   std::vector<Member> members_;
   std::vector<int> patch_of_;  // of each row, or -1
+  std::size_t arranged_ = 0;   // so many patches stand in the order of their rows' places
 };
 
 }  // namespace fc::friction

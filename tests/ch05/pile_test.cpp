@@ -86,7 +86,8 @@ TEST(GaussSeidel, AgreesWithDantzig) {
     solver.run(20'000);
     EXPECT_LE(solver.residual(), 1e-5) << seed;
     std::vector<Twist> velocities, paths;
-    solver.work_out(velocities, paths);
+    solver.work_out_velocities(velocities);
+    solver.work_out_paths(paths);
     for (const bool is_path : {false, true}) {
       const fc::VecX exact = pile.exact_speeds(is_path ? 0.05 : 0);
       const std::vector<fc::RigidBody> bodies = pile.with(is_path ? paths : velocities);
@@ -106,7 +107,8 @@ TEST(GaussSeidel, NeverMakesEnergy) {
     GaussSeidel solver = pile.solver(seed % 4);
     solver.run(1 + static_cast<int>(seed % 20));
     std::vector<Twist> velocities, paths;
-    solver.work_out(velocities, paths);
+    solver.work_out_velocities(velocities);
+    solver.work_out_paths(paths);
     EXPECT_LE(energy(pile.with(velocities)), energy(pile.bodies) * (1 + 1e-5)) << seed;
     for (int i = 0; i < solver.rows(); ++i) EXPECT_GE(solver.impulse(i), 0);
   }
@@ -119,7 +121,8 @@ TEST(GaussSeidel, KeepsMomentum) {
   GaussSeidel solver = pile.solver();
   solver.run(10);
   std::vector<Twist> velocities, paths;
-  solver.work_out(velocities, paths);
+  solver.work_out_velocities(velocities);
+  solver.work_out_paths(paths);
   Vec3 before = Vec3::Zero(), after = Vec3::Zero(), turn = Vec3::Zero();
   for (std::size_t i = 1; i < pile.bodies.size(); ++i) {
     const fc::RigidBody& body = pile.bodies[i];
