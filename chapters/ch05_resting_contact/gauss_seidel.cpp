@@ -1,9 +1,8 @@
 #include "ch05_resting_contact/gauss_seidel.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <numeric>
+#include <utility>
 
 namespace fc::resting {
 namespace {
@@ -37,13 +36,9 @@ void GaussSeidel::clear() {
 }
 
 void GaussSeidel::add_body(const RigidBody& body, const Twist& velocity, const Twist& path) {
-  Mass mass{body.position,
-            body.inverse_mass * body.free_moves,
-            std::sqrt(body.inverse_mass) * body.free_moves,
-            Mat3::Zero(),
-            Mat3::Zero(),
-            !body.is_static()};
-  if (mass.moves) {
+  Mass mass{body.position, body.inverse_mass * body.free_moves,
+            std::sqrt(body.inverse_mass) * body.free_moves, Mat3::Zero(), Mat3::Zero()};
+  if (!body.is_static()) {
     mass.turn = body.inverse_inertia_world();
     mass.turn_root = root_of(body, mass.turn);
   }
@@ -112,56 +107,35 @@ void GaussSeidel::sweep() {
 }
 // ANCHOR_END: sweep
 
-// By colour, and of one colour those with most rows first; else in the order in which they were added.
-void GaussSeidel::sort_pairs() {
-  constexpr int kMost = 31;  // rows that are told apart
-  const auto key = [&](const PairRows& pair) {
-    return at(pair.colour * (kMost + 1) + kMost - std::min<int>(pair.count, kMost));
-  };
-  starts_.assign(64 * (kMost + 1) + 1, 0);
-  for (const PairRows& pair : pairs_) ++starts_[key(pair) + 1];
-  std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
-  sorted_.resize(pairs_.size());
-  for (const PairRows& pair : pairs_) sorted_[at(starts_[key(pair)]++)] = pair;
-  pairs_.swap(sorted_);
-}
-
-// Gives the rows that were added since the last time their places. A row has to wait for the one before it if both move the
-// same body. So pairs of bodies are coloured: no body that can be moved has two pairs of one colour. Of each colour, pairs go in
-// step, eight at a time: the first row of each, then the second of each. Then the processor works on several rows at once.
+// Gives the rows that were added since the last time their places. A row has to wait for the one before it if both move the same
+// body, and neighbours do: pairs come body by body. So eight pairs go in step, from eight places of the list, the first row of each,
+// then the second of each: the processor works on several at once. In each part of the list pairs keep their order, so what one
+// learns, the next one hears in the same sweep.
 void GaussSeidel::arrange() {
-  constexpr int kInStep = 8, kColours = 64;
+  constexpr int kInStep = 8;
   if (arranged_ == rows()) return;
   pairs_.clear();
-  colours_.assign(masses_.size(), 0);
   for (int number = arranged_; number < rows(); ++number) {
-    const Row& row = rows_[at(number)];
-    if (number > arranged_ && row.a == rows_[at(number - 1)].a && row.b == rows_[at(number - 1)].b) {
+    const bool same = number > arranged_ && rows_[at(number)].a == rows_[at(number - 1)].a &&
+                      rows_[at(number)].b == rows_[at(number - 1)].b;
+    if (same)
       ++pairs_.back().count;
-      continue;
-    }
-    const bool moves_a = masses_[at(row.a)].moves, moves_b = masses_[at(row.b)].moves;
-    const std::uint64_t taken = (moves_a ? colours_[at(row.a)] : 0) | (moves_b ? colours_[at(row.b)] : 0);
-    const int colour = std::min(std::countr_one(taken), kColours - 1);  // the last may have to serve more
-    if (moves_a) colours_[at(row.a)] |= std::uint64_t{1} << colour;
-    if (moves_b) colours_[at(row.b)] |= std::uint64_t{1} << colour;
-    pairs_.push_back({number, 1, colour});
+    else
+      pairs_.push_back({number, 1});
   }
-  sort_pairs();
   added_.assign(rows_.begin() + arranged_, rows_.end());
-  const int offset = arranged_;
-  for (std::size_t i = 0; i < pairs_.size();) {
-    std::size_t end = i + 1;
-    while (end < pairs_.size() && end < i + kInStep && pairs_[end].colour == pairs_[i].colour) ++end;
-    int most = 0;
-    for (std::size_t j = i; j < end; ++j) most = std::max(most, pairs_[j].count);
-    for (int k = 0; k < most; ++k)
-      for (std::size_t j = i; j < end && k < pairs_[j].count; ++j) {
-        const int number = pairs_[j].first + k;
+  const int offset = arranged_, count = static_cast<int>(pairs_.size()),
+            part = (count + kInStep - 1) / kInStep;
+  for (int i = 0; i < part; ++i) {
+    bool any = true;
+    for (int k = 0; std::exchange(any, false); ++k)
+      for (int j = i; j < count; j += part) {
+        if (k >= pairs_[at(j)].count) continue;
+        any = true;
+        const int number = pairs_[at(j)].first + k;
         place_[at(number)] = arranged_;
         rows_[at(arranged_++)] = added_[at(number - offset)];
       }
-    i = end;
   }
   rows_arranged();
 }

@@ -79,7 +79,6 @@ class GaussSeidel {
   struct Mass {
     Vec3 place, move, root;  // m; 1/kg along each axis that is free, and its root
     Mat3 turn, turn_root;    // 1/(kg m^2), and L
-    bool moves;              // an impulse can move it
   };
   // When rows have got their places; what else a sweep looks at, after the rows; what else the guesses do; what else impulses do to the energy, doubled, with its
   // size (J); and their momenta, N s and N m s, added to those of each body.
@@ -113,15 +112,12 @@ class GaussSeidel {
 
  private:
   struct PairRows {  // rows of the same two bodies, added one after the other
-    int first, count, colour;
+    int first, count;
   };
   void arrange();
-  void sort_pairs();
 
   int arranged_ = 0;  // so many rows have their place
-  std::vector<PairRows> pairs_, sorted_;
-  std::vector<int> starts_;
-  std::vector<std::uint64_t> colours_;  // of each body's pairs, a bit each
+  std::vector<PairRows> pairs_;
   std::vector<Row> added_;
 };
 
