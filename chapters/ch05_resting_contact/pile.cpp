@@ -14,6 +14,10 @@ constexpr double kPathFloor = 1.0 / 64;
 // The largest part of their kinetic energy that a pile's plans may add to it in a frame.
 constexpr double kMostGained = 0.01;
 
+// A pile that settles is swept until this residual is reached, or so many rows were looked at.
+constexpr double kSettled = 2e-4;
+constexpr int kMostVisits = 150'000;
+
 // Pairs of nodes that are looked at in one proof.
 constexpr std::int64_t kMostNodePairs = 50'000;
 
@@ -131,6 +135,8 @@ Planned PilePlanner::make(const world::World& world, std::span<const Member> mem
     add_pair(world, i);
   }
   swept_ = gauss_seidel_->run(std::max(options_.sweeps, options_.visits / (1 + rows())));
+  while (options_.settles && swept_ * rows() < kMostVisits && gauss_seidel_->residual() > kSettled)
+    swept_ += gauss_seidel_->run(options_.sweeps);
   find_paths(world);
   shares_.assign(courses_.members.size(), 1);
   Shortening(world, courses_, shares_, blocked_).run(kPathFloor * contacts_.margin());

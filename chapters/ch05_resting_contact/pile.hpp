@@ -12,6 +12,7 @@ struct PileOptions {
   double frame =
       0;  // s: what comes in faster than a margin in that time gives back what its restitution says
   int sweeps = 16;
+  bool settles = false;     // it nearly stands: more, until they agree
   int rounds = 3;           // in which pairs whose paths are not clear are looked at again,
   int path_sweeps = 8;      // with so many sweeps in each
   int visits = 4000;        // of rows, in all sweeps together: more sweeps, if they would be fewer

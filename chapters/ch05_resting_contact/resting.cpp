@@ -28,6 +28,9 @@ constexpr double kShortestOfPile = 1.0 / 512;
 constexpr std::size_t kLarge = 100;
 constexpr int kLookAgain = 8;
 
+// A pile settles when its bodies are slower than this part of a margin in a frame.
+constexpr double kSettles = 1.0 / 4;
+
 // A plan that would leave less than this part of what is left of the frame takes it all.
 constexpr double kNearlyAll = 0.75;
 
@@ -398,6 +401,16 @@ bool Resting::plan(Instant& instant, Island& island) {
   return true;
 }
 
+// Whether these bodies nearly stand, on the whole. rest_speed: m/s, a margin in a frame.
+static bool settles(std::span<const Member> members, double rest_speed) {
+  double energy = 0, mass = 0;
+  for (const Member& member : members) {
+    energy += member.state.kinetic_energy();
+    mass += member.state.mass;
+  }
+  return energy < 0.5 * mass * std::pow(kSettles * rest_speed, 2);
+}
+
 // A pile has no impacts of its own, only plans: one in a frame while it is calm, else two; and more, if it is so small that shorter
 // plans cost less than paths that are shortened.
 void Resting::go_on(Instant& instant, PileList::Pile& pile) {
@@ -416,6 +429,7 @@ void Resting::go_on(Instant& instant, PileList::Pile& pile) {
   options.sweeps = options_.sweeps;
   options.visits = options_.visits;
   options.report_rows = static_cast<bool>(instant.listeners.impact);
+  options.settles = settles(members, contacts_.margin() / dt_);
   Planned planned;
   double length = pile.length > kNearlyAll * left ? left : pile.length;
   for (bool stopped = false;;) {
