@@ -7,6 +7,15 @@
 
 namespace fc::resting {
 
+lcp::Contact contact_at(const world::World& world, std::span<const Member> members, int a, int b,
+                        const ContactPoint& point) {
+  const int number_a = members[at(a)].number, number_b = members[at(b)].number;
+  const Pose pose_a = members[at(a)].state.pose(), pose_b = members[at(b)].state.pose();
+  const double gap = point.gap_at(pose_a, pose_b);
+  return {a,   b, point.middle(pose_a, pose_b), point.normal_at(pose_a, pose_b),
+          gap, 0, world.turns(number_a),        world.turns(number_b)};
+}
+
 IslandFinder::IslandFinder(Contacts& contacts, std::size_t bodies)
     : contacts_(contacts), stamp_(bodies, 0), place_(bodies, -1) {}
 

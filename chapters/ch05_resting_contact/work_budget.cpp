@@ -26,21 +26,16 @@ void WorkBudget::next_frame() {
   }
 }
 
-void WorkBudget::add(const Island& island, double work, double most) {
+void WorkBudget::add(const Island& island, double work, double most, double rest_speed) {
+  const bool stands = std::all_of(island.members.begin(), island.members.end(), [&](const Member& member) {
+    return !member.dynamic || member.state.velocity.norm() < kStands * rest_speed;
+  });
   for (const Member& member : island.members) {
     if (!member.dynamic) continue;
     Account& account = bodies_[at(member.number)];
     account.work += work;
-    account.spent = account.work > most;
+    account.spent = account.work > most && !stands;
   }
-}
-
-void WorkBudget::forgive(const Island& island, double rest_speed) {
-  const auto stands = [&](const Member& member) {
-    return !member.dynamic || member.state.velocity.norm() < kStands * rest_speed;
-  };
-  if (!std::all_of(island.members.begin(), island.members.end(), stands)) return;
-  for (const Member& member : island.members) bodies_[at(member.number)].spent = false;
 }
 
 bool WorkBudget::is_spent(const Island& island) const {

@@ -14,10 +14,8 @@ class WorkBudget {
  public:
   explicit WorkBudget(std::size_t bodies) : bodies_(bodies) {}
   void next_frame();
-  // most: a frame's.
-  void add(const Island& island, double work, double most);
-  // The frame is over. rest_speed: m/s, a margin in a frame.
-  void forgive(const Island& island, double rest_speed);
+  // What the island took; most: a frame's. rest_speed: m/s, a margin in a frame, if the frame is over; else 0.
+  void add(const Island& island, double work, double most, double rest_speed);
   bool is_spent(const Island& island) const;
 
  private:
