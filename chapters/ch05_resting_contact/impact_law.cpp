@@ -68,7 +68,7 @@ Touching touching(const world::World& world, const Island& island, std::span<con
     const int number_a = island.members[at(pair.a)].number, number_b = island.members[at(pair.b)].number;
     const bool bounces = options.bounces(number_a) && options.bounces(number_b);
     for (const ContactPoint& point : pair.contacts->points) {
-      const lcp::Contact contact = contact_at(world, island.members, pair.a, pair.b, point);
+      const lcp::Contact contact = contact_at(world, island.members, bodies, pair.a, pair.b, point);
       if (contact.gap > margin) continue;
       const bool fast = lcp::contact_velocity(bodies, contact) < -options.rest_speed && !point.lasts;
       if (fast && contact.gap > kThere * margin) continue;

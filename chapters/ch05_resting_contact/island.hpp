@@ -22,9 +22,9 @@ struct Member {
   bool dynamic = false;  // impulses can move it
 };
 
-// The contact of two members (a and b are their places) at a point of theirs, as they stand; without restitution.
-lcp::Contact contact_at(const world::World& world, std::span<const Member> members, int a, int b,
-                        const ContactPoint& point);
+// The contact at a point of two members (a and b are their places), as they stand in `bodies`; without restitution.
+lcp::Contact contact_at(const world::World& world, std::span<const Member> members,
+                        std::span<const RigidBody> bodies, int a, int b, const ContactPoint& point);
 
 struct IslandPair {
   PairContacts* contacts;

@@ -92,8 +92,8 @@ std::shared_ptr<const Planned> PlanMaker::make(const world::World& world, const 
 PlanResult PlanMaker::try_length(const world::World& world, const Island& island, double now, double length,
                                  bool may_change) {
   const double margin = contacts_.margin();
-  rows_.start(options_);
   courses_.start(world, island.members, now, length);
+  rows_.start(options_);
   for (const IslandPair& pair : island.pairs) {
     if (comes_in_fast(pair, courses_.members, rest_speed_, margin)) continue;
     const int candidate = courses_.candidate_of(pair.contacts, pair.a, pair.b);
@@ -212,27 +212,30 @@ Planned PlanMaker::take() {
   const double length = courses_.length();
   remember();
   Planned result;
-  std::vector<Vec3> early;
   std::vector<char> goes(courses_.members.size(), 0);
-  const std::vector<RigidBody> free = courses_.with(courses_.drift), ends = rows_.without_arrivals(early);
-  for (std::size_t r = 0; r < early.size(); ++r) {
-    const PlanRow& row = rows_.rows[r];
-    const bool pushes = row.push() > 0 || early[r].dot(row.contact.normal) > 0;
+  const std::vector<RigidBody> free = courses_.with(courses_.drift), ends = rows_.without_arrivals();
+  for (const PlanRow& row : rows_.rows) {
+    const bool pushes = row.push() > 0 || row.early.dot(row.contact.normal) > 0;
     if (pushes || row.correction > 0 || row.end_gap < contacts_.margin())
       for (const int member : {row.contact.body_a, row.contact.body_b}) goes[at(member)] = 1;
     if (!pushes) continue;
     ++result.pushing;
     result.kinematic_work += lcp::kinematic_work(rows_.fast, row.contact, row.impulse);
-    result.early_work += lcp::kinematic_work(rows_.fast, row.contact, early[r]);
-    PlannedRow reported;
-    reported.contact = reported_contact(row);
-    reported.impulse = row.impulse;
-    reported.early = early[r];
-    reported.before = lcp::relative_velocity(free, row.contact);
-    reported.after = lcp::relative_velocity(rows_.fast, row.contact);
-    reported.key = row.point.key;
-    reported.arrives = row.arrives;
-    result.rows.push_back(reported);
+    result.early_work += lcp::kinematic_work(rows_.fast, row.contact, row.early);
+    result.rows.push_back({.contact = row.contact,
+                           .impulse = row.impulse,
+                           .early = row.early,
+                           .before = lcp::relative_velocity(free, row.contact),
+                           .after = lcp::relative_velocity(rows_.fast, row.contact),
+                           .key = row.point.key,
+                           .arrives = row.arrives});
+    lcp::Contact& contact = result.rows.back().contact;
+    if (row.arrives) {
+      contact.gap = row.end_gap;
+      contact.point =
+          row.point.middle(courses_.paths[at(contact.body_a)].end, courses_.paths[at(contact.body_b)].end);
+    }
+    for (int* body : {&contact.body_a, &contact.body_b}) *body = courses_.members[at(*body)].number;
   }
   for (std::size_t i = 0; i < courses_.members.size(); ++i) {
     const RigidBody &path = rows_.path[i], &fast = rows_.fast[i], &end = ends[i];
@@ -247,19 +250,6 @@ Planned PlanMaker::take() {
     result.arrivals.push_back({fast.velocity - end.velocity, fast.spin - end.spin});
   }
   return result;
-}
-
-// Where the row acts, with bodies by their numbers in the world.
-lcp::Contact PlanMaker::reported_contact(const PlanRow& row) const {
-  lcp::Contact contact = row.contact;
-  if (row.arrives) {
-    contact.gap = row.end_gap;
-    contact.point =
-        row.point.middle(courses_.paths[at(contact.body_a)].end, courses_.paths[at(contact.body_b)].end);
-  }
-  contact.body_a = courses_.members[at(contact.body_a)].number;
-  contact.body_b = courses_.members[at(contact.body_b)].number;
-  return contact;
 }
 
 }  // namespace fc::resting

@@ -43,7 +43,6 @@ class PlanMaker {
   double arrival(const PlanRow& row) const;
   void remember() const;
   Planned take();
-  lcp::Contact reported_contact(const PlanRow& row) const;
 
   Contacts& contacts_;
   Courses courses_;

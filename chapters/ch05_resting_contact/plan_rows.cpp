@@ -30,6 +30,7 @@ double wanted_gap(double gap, double margin) {
 void PlanRows::start(const IslandOptions& options) {
   options_ = options;
   rows.clear();
+  fast = courses_.with(courses_.drift);
   corrects_ = true;
   residual = solves = 0;
 }
@@ -37,7 +38,7 @@ void PlanRows::start(const IslandOptions& options) {
 PlanRow PlanRows::row_of(const world::World& world, int candidate, const ContactPoint& point,
                          bool arrives) const {
   const Candidate& pair = courses_.candidates[at(candidate)];
-  PlanRow row{candidate, point, contact_at(world, courses_.members, pair.a, pair.b, point)};
+  PlanRow row{candidate, point, contact_at(world, courses_.members, fast, pair.a, pair.b, point)};
   row.arrives = arrives;
   const double rest = 0.5 * margin_, gap = arrives ? std::min(pair.contacts->gap, rest) : row.contact.gap;
   row.keep = std::min(gap, rest);
@@ -128,10 +129,9 @@ void PlanRows::gather(bool arrivals) {
   approach_limits_.clear();
   bends_.clear();
   impulses_.clear();
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    const PlanRow& row = rows[r];
+  for (PlanRow& row : rows) {
     if (row.arrives && !arrivals) continue;
-    gathered_.push_back(r);
+    gathered_.push_back(&row);
     contacts_.push_back(row.contact);
     approach_limits_.push_back(
         std::max((row.contact.gap + row.bend - row.keep) / courses_.length(), -row.most_push));
@@ -194,17 +194,18 @@ double PlanRows::holds_until() {
   return law_.holds_until({fast, numbers_, contacts_, bends_}, now, impulses_, courses_.length());
 }
 
-std::vector<RigidBody> PlanRows::without_arrivals(std::vector<Vec3>& early) {
-  early.clear();
-  for (const PlanRow& row : rows) early.push_back(row.impulse);
-  if (std::none_of(rows.begin(), rows.end(),
-                   [](const PlanRow& row) { return row.arrives && row.push() > 0; }))
-    return fast;
-  early.assign(rows.size(), Vec3::Zero());
+std::vector<RigidBody> PlanRows::without_arrivals() {
+  bool any = false;
+  for (PlanRow& row : rows) {
+    row.early = row.impulse;
+    any = any || (row.arrives && row.push() > 0);
+  }
+  if (!any) return fast;
+  for (PlanRow& row : rows) row.early = Vec3::Zero();
   std::vector<RigidBody> bodies = courses_.with(courses_.drift);
   gather(false);
-  if (contacts_.empty() || !push(bodies)) return bodies;
-  for (std::size_t k = 0; k < gathered_.size(); ++k) early[gathered_[k]] = impulses_[k];
+  if (push(bodies))
+    for (std::size_t k = 0; k < gathered_.size(); ++k) gathered_[k]->early = impulses_[k];
   return bodies;
 }
 

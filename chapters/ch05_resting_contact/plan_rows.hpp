@@ -16,6 +16,7 @@ struct PlanRow {
   Vec3 slip_bend = Vec3::Zero();  // m/s, see ContactSet
   double keep = 0, want = 0;      // m, at the end: for velocities, and for paths
   Vec3 impulse = Vec3::Zero();    // N s, on B
+  Vec3 early = Vec3::Zero();      // N s, see without_arrivals()
   double correction = 0;          // N s
   double end_gap = 0;             // m
   bool arrives = false;           // not in contact now: what the row does, it does at the plan's end
@@ -39,7 +40,7 @@ class PlanRows {
   PlanRows(Courses& courses, ContactLaw& law, double margin)
       : courses_(courses), law_(law), margin_(margin) {}
 
-  void start(const IslandOptions& options);  // there are none yet
+  void start(const IslandOptions& options);  // there are none yet; the members fly
   // The row of a candidate's point, to be added to these.
   PlanRow row_of(const world::World& world, int candidate, const ContactPoint& point, bool arrives) const;
   // Solves until the gaps at the end are what the rows say of them. The members' courses are then those with `path`.
@@ -47,8 +48,8 @@ class PlanRows {
 
   // Up to which time (s) impulses of contacts that last can act evenly.
   double holds_until();
-  // The members as their contacts that last make them alone, and the impulses (N s) that these need for it.
-  std::vector<RigidBody> without_arrivals(std::vector<Vec3>& early);
+  // The members as their contacts that last make them alone; the rows get the impulses that these need for it.
+  std::vector<RigidBody> without_arrivals();
   // The contact's velocity (m/s) at the end of the paths, if bodies have these velocities.
   double end_speed(const PlanRow& row, const std::vector<RigidBody>& bodies) const;
 
@@ -74,7 +75,7 @@ class PlanRows {
   double margin_;  // m
   IslandOptions options_;
   bool corrects_ = true;
-  std::vector<std::size_t> gathered_;  // the rows that the law is asked about, and of each of them:
+  std::vector<PlanRow*> gathered_;  // the rows that the law is asked about, and of each of them:
   std::vector<lcp::Contact> contacts_;
   std::vector<double> approach_limits_, corrections_;
   std::vector<Vec3> bends_, impulses_;

@@ -16,11 +16,6 @@ world::Plan planned_motion(const Member& member, const Twist& path, const Twist&
 }
 // ANCHOR_END: planned_motion
 
-void RunningPlans::clear() {
-  plans_.clear();
-  free_.clear();
-}
-
 double RunningPlans::next_end() const {
   double first = std::numeric_limits<double>::infinity();
   for (const RunningPlan& plan : plans_)

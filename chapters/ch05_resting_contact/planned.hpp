@@ -41,7 +41,6 @@ struct RunningPlan {
 
 class RunningPlans {
  public:
-  void clear();
   double next_end() const;                            // s in the frame; infinite if none runs
   std::vector<int> bodies_until(double now) const;    // of the plans that end until now
   void start(world::World& world, RunningPlan plan);  // its bodies go by it

@@ -9,14 +9,8 @@ double reported_time(double now, double dt) {
   return std::min(now, (1 - kBeforeEnd) * dt);
 }
 
-void RestRecords::clear() {
-  records_.clear();
-  last_of_.clear();
-  impact_work_ = work_ = 0;
-}
-
-void RestRecords::add(const InstantResult& result, world::StepReport& report,
-                      const world::Listeners& listeners) {
+void RestRecords::add(Instant& instant, const InstantResult& result) {
+  world::StepReport& report = instant.report;
   report.contacts += result.contacts;
   report.lcp_rows += result.rows;
   report.lcp_residual = std::max(report.lcp_residual, result.residual);
@@ -30,14 +24,14 @@ void RestRecords::add(const InstantResult& result, world::StepReport& report,
     }
     ++report.impacts;
     impact_work_ += std::min(0.0, 0.5 * record.tangential.dot(record.slip_before + record.slip_after));
-    if (listeners.impact) listeners.impact(record);
+    if (instant.listeners.impact) instant.listeners.impact(record);
   }
 }
 
-void RestRecords::add(const RunningPlan& plan, double now, double dt, world::StepReport& report,
-                      const world::Listeners& listeners) {
-  const bool whole = now >= plan.end;
-  const double share = (now - plan.start) / (plan.end - plan.start), end = reported_time(now, dt);
+void RestRecords::add(Instant& instant, const RunningPlan& plan, double dt) {
+  const bool whole = instant.now >= plan.end;
+  const double share = (instant.now - plan.start) / (plan.end - plan.start),
+               end = reported_time(instant.now, dt);
   for (const PlannedRow& row : plan.what->rows) {
     const Vec3 acted = whole ? row.impulse : Vec3(share * row.early);
     if (acted.dot(row.contact.normal) > 0) {
@@ -47,11 +41,11 @@ void RestRecords::add(const RunningPlan& plan, double now, double dt, world::Ste
       add(record, row.key, false);
     }
     if (!whole || !(row.back.dot(row.contact.normal) > 0)) continue;
-    ++report.impacts;
-    listeners.impact(
+    ++instant.report.impacts;
+    instant.listeners.impact(
         record_of(end, row.contact, row.before, row.after, row.back, world::ContactKind::impact));
   }
-  report.kinematic_work += whole ? plan.what->kinematic_work : share * plan.what->early_work;
+  instant.report.kinematic_work += whole ? plan.what->kinematic_work : share * plan.what->early_work;
 }
 
 // `key` names the point among those of its two bodies. Added to what is known of it, if its normal has not changed.

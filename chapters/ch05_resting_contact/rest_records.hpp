@@ -12,13 +12,23 @@ namespace fc::resting {
 // s: what happens at the end of a frame of dt seconds is reported a little before it, as it belongs to this frame.
 double reported_time(double now, double dt);
 
+// An instant, and what is to be reported of it.
+struct Instant {
+  world::World& world;
+  double now;  // s in the frame
+  world::StepReport& report;
+  const world::Listeners& listeners;
+  std::vector<int> bodies = {};   // whose plans end; the list grows
+  std::vector<int> changed = {};  // that have got another motion
+  double planned = 0;             // s, how long the plans have lasted that end here
+  double gained = 0;  // J, by all of them since they got their last, beyond what kinematic bodies did
+};
+
 class RestRecords {
  public:
-  void clear();
-  void add(const InstantResult& result, world::StepReport& report, const world::Listeners& listeners);
-  // What the plan did until now, when it ends.
-  void add(const RunningPlan& plan, double now, double dt, world::StepReport& report,
-           const world::Listeners& listeners);
+  void add(Instant& instant, const InstantResult& result);
+  // What the plan did until now, when it ends, in a frame of dt seconds.
+  void add(Instant& instant, const RunningPlan& plan, double dt);
   void report(const world::OnImpact& listener) const;
   // J, what impulses along the surfaces did; those of contacts that last over a plan's path, along which both halves act.
   double tangential_work() const { return impact_work_ + work_; }

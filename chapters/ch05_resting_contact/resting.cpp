@@ -42,7 +42,7 @@ Resting::Resting(const Scene& scene, world::World& world, double dt, const RestO
       law_(law ? std::move(law) : std::make_unique<NormalLaw>()),
       maker_(contacts_, *law_, world.bodies.size()),
       pile_planner_(contacts_, *law_),
-      budget_(world.bodies.size()),
+      piles_(world.bodies.size()),
       standing_(*law_, contacts_.margin(), world.bodies.size()),
       meetings_(world.bodies.size(), 0),
       energy_(world.bodies.size(), 0) {
@@ -58,12 +58,12 @@ Resting::Resting(const Scene& scene, world::World& world, double dt, const RestO
 
 RestReport Resting::step(world::World& world, const world::Listeners& listeners) {
   report_ = {};
+  records_ = {};
   contacts_.next_frame();
-  budget_.next_frame();
+  piles_.next_frame();
   standing_.next_frame();
   std::fill(meetings_.begin(), meetings_.end(), 0);
   maker_.next_frame();
-  records_.clear();
   const std::int64_t searched = contacts_.searched();
   world::StepReport report = world::step_with(*this, world, frame_, listeners);
   if (world.effects.sleep) fall_asleep(world, islands_, frame_, report);
@@ -84,9 +84,8 @@ std::vector<int> Resting::begin(world::World& world, double dt, world::StepRepor
     report_.clashes.push_back(clash);
   }
   standing_.begin(world, dt);
-  plans_.clear();
-  piles_.begin(world.bodies.size(),
-               find_piles(world, contacts_, dt, options_.most_work,
+  plans_ = {};
+  piles_.begin(find_piles(world, contacts_, dt, options_.most_work,
                           [&](double arrivals, int rank) { return law_->event_work(arrivals, rank); }));
   Instant instant{world, 0, report, listeners};
   for (int body = 0; body < static_cast<int>(world.bodies.size()); ++body)
@@ -148,7 +147,7 @@ bool Resting::is_pile(const Instant& instant, const Island& island) {
   if (std::any_of(island.members.begin(), island.members.end(), cannot_go)) return true;
   if (!std::isfinite(options_.most_work)) return false;
   return law_->event_work(0, island.rank()) > options_.most_work ||
-         (instant.now < dt_ && budget_.is_spent(island));
+         (instant.now < dt_ && piles_.is_spent(island));
 }
 
 // Plans end, the instant's impact law acts, and new plans begin; false if the island cannot be followed so.
@@ -163,7 +162,7 @@ bool Resting::go_on(Instant& instant, Island& island) {
   set_motions(instant, island.members, before, work);
   const bool goes = instant.now >= dt_ || island.pairs.empty() || (solved && plan(instant, island));
   const double rest_speed = instant.now >= dt_ ? envelope() / dt_ : 0;
-  budget_.add(island, law_->work() - worked, law_->most_work(island.dynamic), rest_speed);
+  piles_.add_work(island, law_->work() - worked, law_->most_work(island.dynamic), rest_speed);
   return goes;
 }
 
@@ -177,7 +176,7 @@ double Resting::stand(Instant& instant, std::span<Member> members) {
       const RunningPlan plan = plans_.end(instant.world, body.plan.number, instant.now);
       instant.planned = std::max(instant.planned, instant.now - plan.start);
       instant.bodies.insert(instant.bodies.end(), plan.what->bodies.begin(), plan.what->bodies.end());
-      records_.add(plan, instant.now, dt_, instant.report, instant.listeners);
+      records_.add(instant, plan, dt_);
     }
     instant.world.advance_to(member.number, instant.now, instant.now);
     member.state = body.state;
@@ -202,7 +201,7 @@ void Resting::set_motions(Instant& instant, std::span<const Member> members, dou
 bool Resting::resolve(Instant& instant, Island& island) {
   const bool ends = instant.now >= dt_;  // the frame
   if (const auto known = ends ? standing_.instant(island) : nullptr) {
-    records_.add(*known, instant.report, instant.listeners);
+    records_.add(instant, *known);
     return true;
   }
   InstantOptions options;
@@ -218,7 +217,7 @@ bool Resting::resolve(Instant& instant, Island& island) {
     throw lcp::unsolved(instant.world.solver, result.status, result.steps, result.residual);
   if (!result.solved) return false;
   instant.report.solves += result.solves;
-  records_.add(result, instant.report, instant.listeners);
+  records_.add(instant, result);
   for (const world::ImpactRecord& record : result.records)
     standing_.add(record.contact, record.impulse.impulse + record.tangential.norm());
   standing_.still(instant.world, island.members);

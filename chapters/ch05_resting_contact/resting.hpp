@@ -11,7 +11,6 @@
 #include "ch05_resting_contact/planned.hpp"
 #include "ch05_resting_contact/rest_records.hpp"
 #include "ch05_resting_contact/standing.hpp"
-#include "ch05_resting_contact/work_budget.hpp"
 
 namespace fc::resting {
 
@@ -26,9 +25,9 @@ struct RestReport {
   int largest_island = 0;                                         // contact points
   int sweeps = 0;                                                 // of Gauss-Seidel, in piles
   double correction = 0;  // m, the largest that a body's point was moved to put gaps right
-  double correction_energy =
-      0;  // J, that bodies in contact gained beyond what kinematic bodies did: by corrections of
-          // positions, and by the plans' error, which is of second order
+  // J, that bodies in contact gained beyond what kinematic bodies did: by corrections of positions, and by the plans' error, which
+  // is of second order
+  double correction_energy = 0;
   double tangential_work = 0;       // J, by impulses along the surfaces
   int shortened = 0;                // bodies of piles whose paths were shortened
   double lost_impulse = 0;          // N s, the momentum that this took
@@ -62,17 +61,6 @@ class Resting : public world::Planner {
                         const world::Listeners& listeners) override;
 
  private:
-  // An instant, and what is to be reported of it.
-  struct Instant {
-    world::World& world;
-    double now;
-    world::StepReport& report;
-    const world::Listeners& listeners;
-    std::vector<int> bodies = {};   // whose plans end; the list grows
-    std::vector<int> changed = {};  // that have got another motion
-    double planned = 0;             // s, how long the plans have lasted that end here
-    double gained = 0;  // J, by all of them since they got their last, beyond what kinematic bodies did
-  };
   std::vector<int> go_on(Instant instant);
   bool go_on(Instant& instant, Island& island);
   void go_on(Instant& instant, PileList::Pile& pile);
@@ -92,7 +80,6 @@ class Resting : public world::Planner {
   PilePlanner pile_planner_;
   PileList piles_;
   RunningPlans plans_;
-  WorkBudget budget_;
   Standing standing_;
   KinematicWatch watch_;
   std::vector<int> meetings_;   // of each body, in this frame

@@ -47,10 +47,6 @@ void Standing::begin(const world::World& world, double dt) {
   }
 }
 
-void Standing::add(const lcp::Contact& contact, double impulse) {
-  for (const int body : {contact.body_a, contact.body_b}) pushed_[at(body)] += impulse;
-}
-
 // m/s: a body in contact whose points are slower stands still.
 double Standing::still_speed(const world::World& world, int body) const {
   const double left = law_.left() * pushed_[at(body)] * world.bodies[at(body)].state.inverse_mass;

@@ -30,7 +30,9 @@ class Standing {
   void begin(const world::World& world, double dt);
 
   // An impulse of this frame, N s: it cancels with others up to a part of its size. Bodies by their numbers in the world.
-  void add(const lcp::Contact& contact, double impulse);
+  void add(const lcp::Contact& contact, double impulse) {
+    for (const int body : {contact.body_a, contact.body_b}) pushed_[at(body)] += impulse;
+  }
   // After an instant: what is left of velocities that do not move the members.
   void still(const world::World& world, std::span<Member> members);
   // The same of the paths of bodies that have got a plan; whether all of them stand.
