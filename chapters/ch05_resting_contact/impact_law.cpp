@@ -21,39 +21,9 @@ double kinetic(const std::vector<RigidBody>& bodies) {
   return sum;
 }
 
-// The second stage, after a compression by `impulses` from velocities `before` of the contacts (m/s, see relative_velocity):
-// false if nothing gives back.
-bool give_back(const ContactSet& set, ContactLaw& law, const std::vector<double>& restitution,
-               const std::vector<Vec3>& impulses, std::vector<Vec3>& total, const std::vector<Vec3>& before) {
-  std::vector<RigidBody> expanded(set.bodies.begin(), set.bodies.end());
-  std::vector<double> back(set.contacts.size());
-  bool any = false;
-  for (std::size_t i = 0; i < back.size(); ++i) {
-    back[i] = restitution[i] * impulses[i].dot(set.contacts[i].normal);
-    if (!(back[i] > 0)) continue;
-    any = true;
-    lcp::apply_impulse(expanded, set.contacts[i], back[i]);
-  }
-  if (!any) return false;
-  // ANCHOR: cap
-  double gave = 0, takes = 0;  // z'Az and r'Ar, by what the impulses do to the velocities
-  for (std::size_t i = 0; i < back.size(); ++i) {
-    const Vec3 compressed = lcp::relative_velocity(set.bodies, set.contacts[i]);
-    gave += impulses[i].dot(compressed - before[i]);
-    takes +=
-        back[i] * set.contacts[i].normal.dot(lcp::relative_velocity(expanded, set.contacts[i]) - compressed);
-  }
-  const double cap = takes > gave ? std::sqrt(std::max(0.0, gave) / takes) : 1;
-  for (double& normal : back) normal *= cap;
-  law.give_back(set, back, total);
-  // ANCHOR_END: cap
-  return true;
-}
-
 // The points of an island that are in contact, and what is known of each before the instant.
 struct Touching {
-  std::vector<lcp::Contact>
-      contacts;  // bodies by their places among the members; a compression has no restitution
+  std::vector<lcp::Contact> contacts;  // bodies by their places among the members; without restitution
   std::vector<double> restitution;
   std::vector<Vec3> guesses;  // N s, on B
   std::vector<char> is_fast;  // it comes in fast
@@ -105,7 +75,7 @@ struct Stages {
   InstantResult& result;
   std::vector<Vec3> total;  // N s, of each contact
 
-  // Impulses come in as guesses. all: or those alone that last.
+  // Stops what closes, of all contacts, or of those alone that last. Impulses come in as guesses.
   bool compress(std::span<Vec3> impulses, bool all) {
     std::vector<std::size_t> which;
     std::vector<lcp::Contact> contacts;
@@ -132,6 +102,34 @@ struct Stages {
     return true;
   }
 
+  // The second stage, after a compression by `impulses` from velocities `before` of the contacts (m/s, see relative_velocity):
+  // false if nothing gives back.
+  bool give_back(const std::vector<Vec3>& impulses, const std::vector<Vec3>& before) {
+    std::vector<RigidBody> expanded(set.bodies.begin(), set.bodies.end());
+    std::vector<double> back(set.contacts.size());
+    bool any = false;
+    for (std::size_t i = 0; i < back.size(); ++i) {
+      back[i] = island.restitution[i] * impulses[i].dot(set.contacts[i].normal);
+      if (!(back[i] > 0)) continue;
+      any = true;
+      lcp::apply_impulse(expanded, set.contacts[i], back[i]);
+    }
+    if (!any) return false;
+    // ANCHOR: cap
+    double gave = 0, takes = 0;  // z'Az and r'Ar, by what the impulses do to the velocities
+    for (std::size_t i = 0; i < back.size(); ++i) {
+      const Vec3 compressed = lcp::relative_velocity(set.bodies, set.contacts[i]);
+      gave += impulses[i].dot(compressed - before[i]);
+      takes += back[i] *
+               set.contacts[i].normal.dot(lcp::relative_velocity(expanded, set.contacts[i]) - compressed);
+    }
+    const double cap = takes > gave ? std::sqrt(std::max(0.0, gave) / takes) : 1;
+    for (double& normal : back) normal *= cap;
+    law.give_back(set, back, total);
+    // ANCHOR_END: cap
+    return true;
+  }
+
   // Both stages, again as long as something closes. Before an impact stops the other half of what plans have pushed up to now: it
   // is no part of the impact, and does not bounce. False if one could not be solved.
   bool stop_what_closes(double rounding) {
@@ -141,8 +139,7 @@ struct Stages {
       if (result.impact) std::fill(impulses.begin(), impulses.end(), Vec3::Zero());
       const std::vector<Vec3> before = velocities_of(set);
       if (!compress(impulses, true)) return false;
-      if (!result.impact || round == kMostBounces ||
-          !give_back(set, law, island.restitution, impulses, total, before) ||
+      if (!result.impact || round == kMostBounces || !give_back(impulses, before) ||
           !anything_closes(set, rounding))
         return true;
     }

@@ -220,7 +220,7 @@ bool Resting::resolve(Instant& instant, Island& island) {
   records_.add(instant, result);
   for (const world::ImpactRecord& record : result.records)
     standing_.add(record.contact, record.impulse.impulse + record.tangential.norm());
-  standing_.still(instant.world, island.members);
+  standing_.stop(instant.world, island.members);
   if (ends && !result.impact) standing_.keep(before, island, result);
   if (result.impact && instant.listeners.instant) {
     for (const Member& member : island.members)
@@ -305,7 +305,7 @@ bool Resting::start(Instant& instant, const std::shared_ptr<const Planned>& plan
   if (planned->bodies.empty()) return false;
   for (const PlannedRow& row : planned->rows) standing_.add(row.contact, row.impulse.norm());
   plans_.start(instant.world, {instant.now, end, planned});
-  return standing_.still(instant.world, *planned);
+  return standing_.stop(instant.world, *planned);
 }
 
 }  // namespace fc::resting

@@ -31,7 +31,7 @@ double fastest_point(const world::World& world, int body, const Vec3& velocity, 
 
 void Standing::next_frame() {
   std::fill(pushed_.begin(), pushed_.end(), 0);
-  std::fill(stilled_.begin(), stilled_.end(), 0);
+  std::fill(stopped_.begin(), stopped_.end(), 0);
 }
 
 void Standing::begin(const world::World& world, double dt) {
@@ -53,18 +53,18 @@ double Standing::still_speed(const world::World& world, int body) const {
   return std::min(kStill * margin_ / dt_ + left, kMostStill * margin_ / dt_);
 }
 
-void Standing::still(const world::World& world, std::span<Member> members) {
+void Standing::stop(const world::World& world, std::span<Member> members) {
   for (Member& member : members) {
     if (!member.dynamic) continue;
     const double speed = fastest_point(world, member.number, member.state.velocity, member.state.spin);
-    double& stilled = stilled_[at(member.number)];
-    if (stilled + speed >= still_speed(world, member.number)) continue;
-    stilled += speed;
+    double& stopped = stopped_[at(member.number)];
+    if (stopped + speed >= still_speed(world, member.number)) continue;
+    stopped += speed;
     member.state.velocity = member.state.spin = Vec3::Zero();
   }
 }
 
-bool Standing::still(world::World& world, const Planned& plan) const {
+bool Standing::stop(world::World& world, const Planned& plan) const {
   const bool corrects = plan.correction > kStill * margin_;
   bool all = true;
   for (const int body : plan.bodies) {

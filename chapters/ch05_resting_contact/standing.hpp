@@ -19,12 +19,7 @@ double fastest_point(const world::World& world, int body, const Vec3& velocity, 
 class Standing {
  public:
   Standing(const ContactLaw& law, double margin, std::size_t bodies)
-      : law_(law),
-        margin_(margin),
-        pushed_(bodies, 0),
-        stilled_(bodies, 0),
-        passed_(bodies, 0),
-        known_(bodies) {}
+      : law_(law), margin_(margin), pushed_(bodies), stopped_(bodies), passed_(bodies), known_(bodies) {}
   void next_frame();
   // A frame, or a part of it, of dt seconds.
   void begin(const world::World& world, double dt);
@@ -34,9 +29,9 @@ class Standing {
     for (const int body : {contact.body_a, contact.body_b}) pushed_[at(body)] += impulse;
   }
   // After an instant: what is left of velocities that do not move the members.
-  void still(const world::World& world, std::span<Member> members);
+  void stop(const world::World& world, std::span<Member> members);
   // The same of the paths of bodies that have got a plan; whether all of them stand.
-  bool still(world::World& world, const Planned& plan) const;
+  bool stop(world::World& world, const Planned& plan) const;
 
   // The plan for `length` seconds of an island as it is; none if it is not known.
   std::shared_ptr<const Planned> plan(const Island& island, double length) const;
@@ -58,7 +53,7 @@ class Standing {
   const ContactLaw& law_;
   double margin_, dt_ = 0;
   std::vector<double> pushed_;   // N s, by all impulses of this frame on each body, their sizes added
-  std::vector<double> stilled_;  // m/s, that was taken as rest in this frame
+  std::vector<double> stopped_;  // m/s, that was taken as rest in this frame
   std::vector<char> passed_;     // by a kinematic body, in this frame
   std::vector<Known> known_;
 };
