@@ -35,15 +35,6 @@ std::vector<RigidBody> states_of(const std::vector<Member>& members) {
   return states;
 }
 
-// The contact at a point of two members (a and b are their places), as they stand in `bodies`.
-lcp::Contact contact_at(const World& world, const std::vector<Member>& members,
-                        const std::vector<RigidBody>& bodies, int a, int b, const ContactPoint& point) {
-  const Pose pose_a = bodies[a].pose(), pose_b = bodies[b].pose();
-  const double gap = point.gap_at(pose_a, pose_b);
-  return {a,   b, point.middle(pose_a, pose_b),   point.normal_at(pose_a, pose_b),
-          gap, 0, world.turns(members[a].number), world.turns(members[b].number)};
-}
-
 // Faster than round-off.
 bool anything_closes(const std::vector<RigidBody>& bodies, const std::vector<lcp::Contact>& contacts) {
   const double rounding = lcp::approach_rounding(bodies, contacts);

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "ch03_impulse_lcp/impact.hpp"
-#include "ch05_resting_contact/rest_records.hpp"
 
 namespace fc::resting {
 namespace {
@@ -22,39 +21,9 @@ double kinetic(const std::vector<RigidBody>& bodies) {
   return sum;
 }
 
-// The second stage, after a compression by `impulses` from velocities `before` of the contacts (m/s, see relative_velocity):
-// false if nothing gives back.
-bool give_back(const ContactSet& set, ContactLaw& law, const std::vector<double>& restitution,
-               const std::vector<Vec3>& impulses, std::vector<Vec3>& total, const std::vector<Vec3>& before) {
-  std::vector<RigidBody> expanded(set.bodies.begin(), set.bodies.end());
-  std::vector<double> back(set.contacts.size());
-  bool any = false;
-  for (std::size_t i = 0; i < back.size(); ++i) {
-    back[i] = restitution[i] * impulses[i].dot(set.contacts[i].normal);
-    if (!(back[i] > 0)) continue;
-    any = true;
-    lcp::apply_impulse(expanded, set.contacts[i], back[i]);
-  }
-  if (!any) return false;
-  // ANCHOR: cap
-  double gave = 0, takes = 0;  // z'Az and r'Ar, by what the impulses do to the velocities
-  for (std::size_t i = 0; i < back.size(); ++i) {
-    const Vec3 compressed = lcp::relative_velocity(set.bodies, set.contacts[i]);
-    gave += impulses[i].dot(compressed - before[i]);
-    takes +=
-        back[i] * set.contacts[i].normal.dot(lcp::relative_velocity(expanded, set.contacts[i]) - compressed);
-  }
-  const double cap = takes > gave ? std::sqrt(std::max(0.0, gave) / takes) : 1;
-  for (double& normal : back) normal *= cap;
-  law.give_back(set, back, total);
-  // ANCHOR_END: cap
-  return true;
-}
-
 // The points of an island that are in contact, and what is known of each before the instant.
 struct Touching {
-  std::vector<lcp::Contact>
-      contacts;  // bodies by their places among the members; a compression has no restitution
+  std::vector<lcp::Contact> contacts;  // bodies by their places among the members; without restitution
   std::vector<double> restitution;
   std::vector<Vec3> guesses;  // N s, on B
   std::vector<char> is_fast;  // it comes in fast
@@ -67,16 +36,12 @@ Touching touching(const world::World& world, const Island& island, std::span<con
   Touching result;
   for (const IslandPair& pair : island.pairs) {
     const int number_a = island.members[at(pair.a)].number, number_b = island.members[at(pair.b)].number;
-    const Pose pose_a = bodies[at(pair.a)].pose(), pose_b = bodies[at(pair.b)].pose();
     const bool bounces = options.bounces(number_a) && options.bounces(number_b);
     for (const ContactPoint& point : pair.contacts->points) {
-      const double gap = point.gap_at(pose_a, pose_b);
-      if (gap > margin) continue;
-      const lcp::Contact contact{
-          pair.a, pair.b, point.middle(pose_a, pose_b), point.normal_at(pose_a, pose_b),
-          gap,    0,      world.turns(number_a),        world.turns(number_b)};
+      const lcp::Contact contact = contact_at(world, island.members, bodies, pair.a, pair.b, point);
+      if (contact.gap > margin) continue;
       const bool fast = lcp::contact_velocity(bodies, contact) < -options.rest_speed && !point.lasts;
-      if (fast && gap > kThere * margin) continue;
+      if (fast && contact.gap > kThere * margin) continue;
       result.contacts.push_back(contact);
       result.restitution.push_back(bounces ? world.restitution_of(number_a, number_b) : 0);
       result.guesses.push_back(point.force * options.guess);
@@ -110,56 +75,89 @@ struct Stages {
   InstantResult& result;
   std::vector<Vec3> total;  // N s, of each contact
 
-  bool compress(std::span<const lcp::Contact> contacts, std::span<Vec3> impulses) {
+  // Stops what closes, of all contacts, or of those alone that last. Impulses come in as guesses.
+  bool compress(std::span<Vec3> impulses, bool all) {
+    std::vector<std::size_t> which;
+    std::vector<lcp::Contact> contacts;
+    std::vector<Vec3> found;
+    for (std::size_t i = 0; i < impulses.size(); ++i) {
+      if (!all && !island.lasts[i]) continue;
+      which.push_back(i);
+      contacts.push_back(island.contacts[i]);
+      found.push_back(impulses[i]);
+    }
+    if (contacts.empty()) return true;
     const std::vector<double> limits(contacts.size(), 0.0);
-    const IslandResult solved =
-        law.push({set.bodies, set.numbers, contacts}, limits, impulses, options.solver);
+    const IslandResult solved = law.push({set.bodies, set.numbers, contacts}, limits, found, options.solver);
     result.residual = std::max(result.residual, solved.residual);
     result.steps += solved.steps;
     result.status = solved.status;
     result.rows += static_cast<int>(contacts.size());
     ++result.solves;
-    return solved.solved;
-  }
-
-  // Before an impact: the other half of what plans have pushed up to now. It is no part of the impact, and does not bounce.
-  bool stop_what_lasts() {
-    std::vector<std::size_t> which;
-    std::vector<lcp::Contact> contacts;
-    std::vector<Vec3> impulses;
-    for (std::size_t i = 0; i < island.contacts.size(); ++i) {
-      if (!island.lasts[i]) continue;
-      which.push_back(i);
-      contacts.push_back(island.contacts[i]);
-      impulses.push_back(island.guesses[i]);
+    if (!solved.solved) return false;
+    for (std::size_t k = 0; k < which.size(); ++k) {
+      impulses[which[k]] = found[k];
+      total[which[k]] += found[k];
     }
-    if (contacts.empty()) return true;
-    if (!compress(contacts, impulses)) return false;
-    for (std::size_t k = 0; k < which.size(); ++k) total[which[k]] += impulses[k];
     return true;
   }
 
-  // Both stages, again as long as something closes. False if one could not be solved.
+  // The second stage, after a compression by `impulses` from velocities `before` of the contacts (m/s, see relative_velocity):
+  // false if nothing gives back.
+  bool give_back(const std::vector<Vec3>& impulses, const std::vector<Vec3>& before) {
+    std::vector<RigidBody> expanded(set.bodies.begin(), set.bodies.end());
+    std::vector<double> back(set.contacts.size());
+    bool any = false;
+    for (std::size_t i = 0; i < back.size(); ++i) {
+      back[i] = island.restitution[i] * impulses[i].dot(set.contacts[i].normal);
+      if (!(back[i] > 0)) continue;
+      any = true;
+      lcp::apply_impulse(expanded, set.contacts[i], back[i]);
+    }
+    if (!any) return false;
+    // ANCHOR: cap
+    double gave = 0, takes = 0;  // z'Az and r'Ar, by what the impulses do to the velocities
+    for (std::size_t i = 0; i < back.size(); ++i) {
+      const Vec3 compressed = lcp::relative_velocity(set.bodies, set.contacts[i]);
+      gave += impulses[i].dot(compressed - before[i]);
+      takes += back[i] *
+               set.contacts[i].normal.dot(lcp::relative_velocity(expanded, set.contacts[i]) - compressed);
+    }
+    const double cap = takes > gave ? std::sqrt(std::max(0.0, gave) / takes) : 1;
+    for (double& normal : back) normal *= cap;
+    law.give_back(set, back, total);
+    // ANCHOR_END: cap
+    return true;
+  }
+
+  // Both stages, again as long as something closes. Before an impact stops the other half of what plans have pushed up to now: it
+  // is no part of the impact, and does not bounce. False if one could not be solved.
   bool stop_what_closes(double rounding) {
     std::vector<Vec3> impulses = island.guesses;
-    if (result.impact) {
-      if (!stop_what_lasts()) return false;
-      std::fill(impulses.begin(), impulses.end(), Vec3::Zero());
-    }
-    for (int round = 0; round <= kMostBounces; ++round) {
+    if (result.impact && !compress(impulses, false)) return false;
+    for (int round = 0;; ++round) {
+      if (result.impact) std::fill(impulses.begin(), impulses.end(), Vec3::Zero());
       const std::vector<Vec3> before = velocities_of(set);
-      if (!compress(set.contacts, impulses)) return false;
-      for (std::size_t i = 0; i < total.size(); ++i) total[i] += impulses[i];
-      if (!result.impact || round == kMostBounces) break;
-      if (!give_back(set, law, island.restitution, impulses, total, before)) break;
-      if (!anything_closes(set, rounding)) break;
-      std::fill(impulses.begin(), impulses.end(), Vec3::Zero());
+      if (!compress(impulses, true)) return false;
+      if (!result.impact || round == kMostBounces || !give_back(impulses, before) ||
+          !anything_closes(set, rounding))
+        return true;
     }
-    return true;
   }
 };
 
 }  // namespace
+
+world::ImpactRecord record_of(double time, const lcp::Contact& contact, const Vec3& before, const Vec3& after,
+                              const Vec3& impulse, world::ContactKind kind) {
+  const Vec3& n = contact.normal;
+  const double normal = n.dot(impulse);
+  world::ImpactRecord record{time, contact, {0, 0, n.dot(before), n.dot(after), normal}, kind};
+  record.tangential = impulse - normal * n;
+  record.slip_before = before - n.dot(before) * n;
+  record.slip_after = after - n.dot(after) * n;
+  return record;
+}
 
 InstantResult resolve_instant(const world::World& world, Island& island, double margin, ContactLaw& law,
                               const InstantOptions& options) {

@@ -26,6 +26,10 @@ struct InstantResult {
   double residual = 0, kinematic_work = 0, energy_gain = 0;
 };
 
+// The record of an impulse (N s, world, on B): the velocities of B's point as seen from A's were `before` and are `after` (m/s).
+world::ImpactRecord record_of(double time, const lcp::Contact& contact, const Vec3& before, const Vec3& after,
+                              const Vec3& impulse, world::ContactKind kind);
+
 // No contact of the island approaches afterwards. First what lasts: that contacts close at which a plan has pushed is the other
 // half of its force, and no impact. They are stopped, without bounce. Then two stages (Poisson's hypothesis, with a cap):
 //   1. compression   z >= 0 stops whoever approaches: J v1 >= 0, z'J v1 = 0;

@@ -7,6 +7,14 @@
 
 namespace fc::resting {
 
+lcp::Contact contact_at(const world::World& world, std::span<const Member> members,
+                        std::span<const RigidBody> bodies, int a, int b, const ContactPoint& point) {
+  const Pose pose_a = bodies[at(a)].pose(), pose_b = bodies[at(b)].pose();
+  const double gap = point.gap_at(pose_a, pose_b);
+  return {a,   b, point.middle(pose_a, pose_b),       point.normal_at(pose_a, pose_b),
+          gap, 0, world.turns(members[at(a)].number), world.turns(members[at(b)].number)};
+}
+
 IslandFinder::IslandFinder(Contacts& contacts, std::size_t bodies)
     : contacts_(contacts), stamp_(bodies, 0), place_(bodies, -1) {}
 

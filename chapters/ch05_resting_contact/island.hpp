@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "ch05_resting_contact/contacts.hpp"
@@ -20,6 +21,10 @@ struct Member {
   RigidBody state;       // at the instant
   bool dynamic = false;  // impulses can move it
 };
+
+// The contact at a point of two members (a and b are their places), as they stand in `bodies`; without restitution.
+lcp::Contact contact_at(const world::World& world, std::span<const Member> members,
+                        std::span<const RigidBody> bodies, int a, int b, const ContactPoint& point);
 
 struct IslandPair {
   PairContacts* contacts;

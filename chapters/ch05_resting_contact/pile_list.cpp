@@ -6,41 +6,55 @@
 namespace fc::resting {
 namespace {
 
-constexpr int kCalm = 3;  // frames
+// An island stands if its bodies are slower than this part of the rest speed.
+constexpr double kStands = 1e-3;
+
+// How long an island is a pile after it has spent its budget, at first and at most.
+constexpr int kLeastFrames = 8, kMostFrames = 256;
+
+// For so many frames no path was shortened in a pile that is calm.
+constexpr int kCalm = 2;
 
 }  // namespace
 
-void PileList::begin(std::size_t bodies, std::vector<std::vector<int>> found) {
-  calm_.resize(bodies, 0);
-  for (int& frames : calm_) ++frames;
+void PileList::next_frame() {
+  for (Account& account : accounts_) {
+    ++account.calm;
+    const bool tried = std::exchange(account.work, 0) > 0;
+    if (std::exchange(account.spent, false))
+      account.waits = account.waited = std::clamp(2 * account.waited, kLeastFrames, kMostFrames);
+    else if (account.waits > 0)
+      --account.waits;
+    else if (tried)
+      account.waited = 0;
+  }
+}
+
+void PileList::begin(const std::vector<std::vector<int>>& found) {
   piles_.clear();
-  pile_of_.assign(bodies, -1);
+  pile_of_.assign(accounts_.size(), -1);
   for (const std::vector<int>& pile : found) unite(pile);
 }
 
-void PileList::begin_instant() {
-  for (Pile& pile : piles_) pile.done = false;
-}
-
 PileList::Pile* PileList::of(int body) {
-  const int pile = pile_of_[static_cast<std::size_t>(body)];
-  return pile < 0 ? nullptr : &piles_[static_cast<std::size_t>(pile)];
+  const int pile = pile_of_[at(body)];
+  return pile < 0 ? nullptr : &piles_[at(pile)];
 }
 
 void PileList::unite(std::span<const int> bodies) {
   int number = -1;
-  for (const int body : bodies) number = std::max(number, pile_of_[static_cast<std::size_t>(body)]);
+  for (const int body : bodies) number = std::max(number, pile_of_[at(body)]);
   if (number < 0) {
     number = static_cast<int>(piles_.size());
     piles_.emplace_back();
   }
-  Pile& pile = piles_[static_cast<std::size_t>(number)];
+  Pile& pile = piles_[at(number)];
   for (const int body : bodies) {
-    const int other = pile_of_[static_cast<std::size_t>(body)];
+    const int other = pile_of_[at(body)];
     if (other == number) continue;
     std::vector<int> joining = {body};
-    if (other >= 0) joining = std::exchange(piles_[static_cast<std::size_t>(other)].bodies, {});
-    for (const int joins : joining) pile_of_[static_cast<std::size_t>(joins)] = number;
+    if (other >= 0) joining = std::exchange(piles_[at(other)].bodies, {});
+    for (const int joins : joining) pile_of_[at(joins)] = number;
     pile.bodies.insert(pile.bodies.end(), joining.begin(), joining.end());
   }
   std::sort(pile.bodies.begin(), pile.bodies.end());
@@ -56,11 +70,30 @@ std::vector<std::vector<int>> PileList::large(std::size_t bodies) const {
 
 bool PileList::is_calm(const Pile& pile) const {
   return std::all_of(pile.bodies.begin(), pile.bodies.end(),
-                     [&](int body) { return calm_[static_cast<std::size_t>(body)] > kCalm; });
+                     [&](int body) { return accounts_[at(body)].calm > kCalm; });
 }
 
 void PileList::was_shortened(const Pile& pile) {
-  for (const int body : pile.bodies) calm_[static_cast<std::size_t>(body)] = 0;
+  for (const int body : pile.bodies) accounts_[at(body)].calm = 0;
+}
+
+void PileList::add_work(const Island& island, double work, double most, double rest_speed) {
+  const bool stands = std::all_of(island.members.begin(), island.members.end(), [&](const Member& member) {
+    return !member.dynamic || member.state.velocity.norm() < kStands * rest_speed;
+  });
+  for (const Member& member : island.members) {
+    if (!member.dynamic) continue;
+    Account& account = accounts_[at(member.number)];
+    account.work += work;
+    account.spent = account.work > most && !stands;
+  }
+}
+
+bool PileList::is_spent(const Island& island) const {
+  return std::any_of(island.members.begin(), island.members.end(), [&](const Member& member) {
+    const Account& account = accounts_[at(member.number)];
+    return member.dynamic && (account.spent || account.waits > 0);
+  });
 }
 
 }  // namespace fc::resting

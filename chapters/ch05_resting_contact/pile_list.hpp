@@ -1,12 +1,17 @@
-// Which bodies belong to which pile, in a frame.
+// Which bodies belong to which pile, and how much work other islands may take from event to event.
 #pragma once
 
 #include <limits>
 #include <span>
 #include <vector>
 
+#include "ch05_resting_contact/island.hpp"
+
 namespace fc::resting {
 
+// Work is the number of times that a solver looks at a contact, so it is the same on every machine. An island that exceeds the
+// budget of a frame becomes a pile for the rest of the frame and for some frames more; each time it exceeds it again, for twice as
+// many. An island that stands at the frame's end is exempt: its balance may be dear to find, and then costs nothing.
 class PileList {
  public:
   struct Pile {
@@ -15,12 +20,16 @@ class PileList {
     bool done = false;                                        // in this instant
     bool jammed = false;  // between what does not move: shorter plans do not help
   };
-  // A frame begins, with these piles.
-  void begin(std::size_t bodies, std::vector<std::vector<int>> found);
-  void begin_instant();
+  explicit PileList(std::size_t bodies) : accounts_(bodies) {}
+  void next_frame();
+  // A frame begins, or a part of it, with these piles.
+  void begin(const std::vector<std::vector<int>>& found);
   const std::vector<int>& pile_of() const { return pile_of_; }  // of each body, or -1
   // The body's, or nothing. Valid until bodies are united.
   Pile* of(int body);
+  void begin_instant() {
+    for (Pile& pile : piles_) pile.done = false;
+  }
   // One pile of these bodies, and of all that are in a pile with one of them.
   void unite(std::span<const int> bodies);
   // Those of the last frame with at least so many bodies.
@@ -29,10 +38,21 @@ class PileList {
   bool is_calm(const Pile& pile) const;
   void was_shortened(const Pile& pile);
 
+  // What the island took; most: a frame's. rest_speed: m/s, a margin in a frame, if the frame is over; else 0.
+  void add_work(const Island& island, double work, double most, double rest_speed);
+  bool is_spent(const Island& island) const;
+
  private:
+  struct Account {
+    double work = 0;  // in this frame, with its island
+    int waits = 0;    // frames for which it is still a pile
+    int waited = 0;   // frames for which it was one the last time
+    bool spent = false;
+    int calm = 0;  // frames since a path was shortened in its pile
+  };
   std::vector<Pile> piles_;
   std::vector<int> pile_of_;
-  std::vector<int> calm_;  // of each body: frames since a path was shortened in its pile
+  std::vector<Account> accounts_;  // of each body
 };
 
 }  // namespace fc::resting

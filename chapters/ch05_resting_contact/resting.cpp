@@ -14,43 +14,13 @@ namespace {
 // may shrink without end (compare the TC model, Luding and McNamara 1998).
 constexpr int kMostBounces = 64;
 
-// So often the plans of a body end in a frame because impulses have to change.
-constexpr int kMostChanges = 8;
-
-// A plan is halved where its paths are not clear, down to this part of a frame.
-constexpr double kShortest = 1.0 / 4096;
-
-// So are plans of piles with few rows, where paths would have to be shortened, down to this part.
+// Plans of piles with few rows are halved where paths would have to be shortened, down to this part of a frame.
 constexpr int kManyRows = 100;
 constexpr double kShortestOfPile = 1.0 / 512;
 
 // A pile of so many bodies stays one until a frame whose number can be divided by this.
 constexpr std::size_t kLarge = 100;
 constexpr int kLookAgain = 8;
-
-// A pile settles when its bodies are slower than this part of a margin in a frame.
-constexpr double kSettles = 1.0 / 4;
-
-// A plan that would leave less than this part of what is left of the frame takes it all.
-constexpr double kNearlyAll = 0.75;
-
-// A body in contact whose points are slower than this part of the margin in a frame stands still: below it is round-off of
-// impulses that cancel. So much a body may lose in a frame, in all its instants together.
-constexpr double kStill = 1e-9;
-// Where impulses are so large that they cancel to no better, up to this part: paths are proved with more room.
-constexpr double kMostStill = 1e-6;
-
-// What happens at the frame's end is reported a little before it (of a frame): it belongs to this frame, whose velocities it makes.
-constexpr double kBeforeEnd = 1e-9;
-
-double reported_time(double now, double dt) {
-  return std::min(now, (1 - kBeforeEnd) * dt);
-}
-
-// m, of the body's points from its centre; a ball's model reaches nowhere.
-double reach_of(const world::World& world, int body) {
-  return world.shapes[at(world.bodies[at(body)].shape)].reach;
-}
 
 double energy_of(const world::World& world, const RigidBody& state) {  // J
   return state.kinetic_energy() -
@@ -68,21 +38,17 @@ void stop(world::World& world, int kinematic, double now, double dt, world::Step
 
 Resting::Resting(const Scene& scene, world::World& world, double dt, const RestOptions& options,
                  std::unique_ptr<ContactLaw> law)
-    : contacts_(world, envelope_of(scene, world, dt)),
-      islands_(contacts_, world.bodies.size()),
-      law_(law ? std::move(law) : std::make_unique<NormalLaw>()),
-      maker_(contacts_, *law_),
-      pile_planner_(contacts_, *law_),
-      budget_(world.bodies.size()),
-      standing_(world.bodies.size()),
-      options_(options),
+    : options_(options),
       frame_(dt),
       dt_(dt),
+      contacts_(world, envelope_of(scene, world, dt)),
+      islands_(contacts_, world.bodies.size()),
+      law_(law ? std::move(law) : std::make_unique<NormalLaw>()),
+      maker_(contacts_, *law_, world.bodies.size()),
+      pile_planner_(contacts_, *law_),
+      piles_(world.bodies.size()),
+      standing_(*law_, contacts_.margin(), world.bodies.size()),
       meetings_(world.bodies.size(), 0),
-      changes_(world.bodies.size(), 0),
-      stilled_(world.bodies.size(), 0),
-      pushed_(world.bodies.size(), 0),
-      try_length_(world.bodies.size(), std::numeric_limits<double>::infinity()),
       energy_(world.bodies.size(), 0) {
   const SolverSpec usual;
   const SolverSpec& solver = world.solver;
@@ -96,13 +62,12 @@ Resting::Resting(const Scene& scene, world::World& world, double dt, const RestO
 
 RestReport Resting::step(world::World& world, const world::Listeners& listeners) {
   report_ = {};
+  records_ = {};
   contacts_.next_frame();
-  budget_.next_frame();
+  piles_.next_frame();
+  standing_.next_frame();
   std::fill(meetings_.begin(), meetings_.end(), 0);
-  std::fill(changes_.begin(), changes_.end(), 0);
-  std::fill(stilled_.begin(), stilled_.end(), 0);
-  std::fill(pushed_.begin(), pushed_.end(), 0);
-  records_.clear();
+  maker_.next_frame();
   const std::int64_t searched = contacts_.searched();
   world::StepReport report = world::step_with(*this, world, frame_, listeners);
   if (world.effects.sleep) fall_asleep(world, islands_, frame_, report);
@@ -122,15 +87,12 @@ std::vector<int> Resting::begin(world::World& world, double dt, world::StepRepor
     clash.time += world.part_start;
     report_.clashes.push_back(clash);
   }
-  standing_.begin(world, envelope(), dt);
-  plans_.clear();
-  free_plans_.clear();
-  piles_.begin(
-      world.bodies.size(),
-      find_piles(
-          world, contacts_, dt, options_.most_work,
-          [&](double arrivals, int rank) { return law_->event_work(arrivals, rank); },
-          contacts_.frame() % kLookAgain == 0 ? std::vector<std::vector<int>>{} : piles_.large(kLarge)));
+  standing_.begin(world, dt);
+  plans_ = {};
+  piles_.begin(find_piles(
+      world, contacts_, dt, options_.most_work,
+      [&](double arrivals, int rank) { return law_->event_work(arrivals, rank); },
+      contacts_.frame() % kLookAgain == 0 ? std::vector<std::vector<int>>{} : piles_.large(kLarge)));
   Instant instant{world, 0, report, listeners};
   for (int body = 0; body < static_cast<int>(world.bodies.size()); ++body)
     if (world.is_dynamic(body) && !world.bodies[at(body)].asleep) instant.bodies.push_back(body);
@@ -138,19 +100,12 @@ std::vector<int> Resting::begin(world::World& world, double dt, world::StepRepor
 }
 
 double Resting::next_end() const {
-  double first = std::numeric_limits<double>::infinity();
-  for (const Running& plan : plans_)
-    if (plan.runs) first = std::min(first, plan.end);
-  return first;
+  return plans_.next_end();
 }
 
 std::vector<int> Resting::end_plans(world::World& world, double now, world::StepReport& report,
                                     const world::Listeners& listeners) {
-  Instant instant{world, now, report, listeners};
-  for (const Running& plan : plans_)
-    if (plan.runs && plan.end <= now)
-      instant.bodies.insert(instant.bodies.end(), plan.what->bodies.begin(), plan.what->bodies.end());
-  return go_on(std::move(instant));
+  return go_on({world, now, report, listeners, plans_.bodies_until(now)});
 }
 
 std::vector<int> Resting::meet(world::World& world, int a, int b, double now, world::StepReport& report,
@@ -165,17 +120,6 @@ std::vector<int> Resting::meet(world::World& world, int a, int b, double now, wo
   return go_on(std::move(instant));
 }
 
-void Resting::add_push(const lcp::Contact& contact, double impulse) {
-  pushed_[at(contact.body_a)] += impulse;
-  pushed_[at(contact.body_b)] += impulse;
-}
-
-// m/s: a body in contact whose points are slower stands still.
-double Resting::still_speed(const world::World& world, int body) const {
-  const double left = law_->left() * pushed_[at(body)] * world.bodies[at(body)].state.inverse_mass;
-  return std::min(kStill * envelope() / dt_ + left, kMostStill * envelope() / dt_);
-}
-
 // These bodies, and all that they are in contact with, directly or over others.
 std::vector<int> Resting::go_on(Instant instant) {
   islands_.begin(instant.now);
@@ -185,8 +129,12 @@ std::vector<int> Resting::go_on(Instant instant) {
     if (piles_.of(body) == nullptr) {
       if (islands_.is_in_island(body)) continue;
       Island island = islands_.grow(instant.world, body, piles_.pile_of());
-      join_pile(island, is_too_much(instant, island));
-      if (piles_.of(body) == nullptr) go_on(instant, island);
+      if (is_pile(instant, island) || !go_on(instant, island)) {
+        std::vector<int> bodies;
+        for (const Member& member : island.members)
+          if (member.dynamic) bodies.push_back(member.number);
+        piles_.unite(bodies);
+      }
     }
     PileList::Pile* pile = piles_.of(body);
     if (pile != nullptr && !pile->done) go_on(instant, *pile);
@@ -196,15 +144,20 @@ std::vector<int> Resting::go_on(Instant instant) {
   return std::move(instant.changed);
 }
 
-// To go on from event to event, with an island that is no pile yet.
-bool Resting::is_too_much(const Instant& instant, const Island& island) const {
+// Whether a pile has got into the island, or nobody could go on with it from event to event.
+bool Resting::is_pile(const Instant& instant, const Island& island) {
+  const auto cannot_go = [&](const Member& member) {
+    return member.dynamic &&
+           (piles_.of(member.number) != nullptr || meetings_[at(member.number)] > options_.most_meetings);
+  };
+  if (std::any_of(island.members.begin(), island.members.end(), cannot_go)) return true;
   if (!std::isfinite(options_.most_work)) return false;
   return law_->event_work(0, island.rank()) > options_.most_work ||
-         (instant.now < dt_ && budget_.is_spent(island));
+         (instant.now < dt_ && piles_.is_spent(island));
 }
 
-// Plans end, the instant's impact law acts, and new plans begin; an island that cannot be followed becomes a pile.
-void Resting::go_on(Instant& instant, Island& island) {
+// Plans end, the instant's impact law acts, and new plans begin; false if the island cannot be followed so.
+bool Resting::go_on(Instant& instant, Island& island) {
   const double work = instant.report.kinematic_work, before = stand(instant, island.members),
                worked = law_->work();
   wake(instant.world, island.members, instant.report);
@@ -214,9 +167,9 @@ void Resting::go_on(Instant& instant, Island& island) {
   const bool solved = island.pairs.empty() || resolve(instant, island);
   set_motions(instant, island.members, before, work);
   const bool goes = instant.now >= dt_ || island.pairs.empty() || (solved && plan(instant, island));
-  budget_.add(island, law_->work() - worked, law_->most_work(island.dynamic));
-  if (instant.now >= dt_) budget_.forgive(island, envelope() / dt_);
-  if (!goes) join_pile(island, true);
+  const double rest_speed = instant.now >= dt_ ? envelope() / dt_ : 0;
+  piles_.add_work(island, law_->work() - worked, law_->most_work(island.dynamic), rest_speed);
+  return goes;
 }
 
 // All stand where they are now; the plans that moved them end. Returns the energy (J) with which they began their motions.
@@ -225,7 +178,12 @@ double Resting::stand(Instant& instant, std::span<Member> members) {
   for (Member& member : members) {
     if (!member.dynamic) continue;
     world::Body& body = instant.world.bodies[at(member.number)];
-    if (body.plan.number >= 0) end_plan(instant, body.plan.number);
+    if (body.plan.number >= 0) {
+      const RunningPlan plan = plans_.end(instant.world, body.plan.number, instant.now);
+      instant.planned = std::max(instant.planned, instant.now - plan.start);
+      instant.bodies.insert(instant.bodies.end(), plan.what->bodies.begin(), plan.what->bodies.end());
+      records_.add(instant, plan, dt_);
+    }
     instant.world.advance_to(member.number, instant.now, instant.now);
     member.state = body.state;
     instant.changed.push_back(member.number);
@@ -245,59 +203,11 @@ void Resting::set_motions(Instant& instant, std::span<const Member> members, dou
   instant.gained += gained;
 }
 
-// An island that a pile has got into belongs to it; else it becomes one if it `must`, or if it has events without end.
-void Resting::join_pile(const Island& island, bool must) {
-  std::vector<int> bodies;
-  for (const Member& member : island.members) {
-    if (!member.dynamic) continue;
-    bodies.push_back(member.number);
-    must =
-        must || piles_.of(member.number) != nullptr || meetings_[at(member.number)] > options_.most_meetings;
-  }
-  if (must) piles_.unite(bodies);
-}
-
-// Its bodies stand where they are now, with the velocities that they have; what its rows did until now is reported.
-void Resting::end_plan(Instant& instant, int number) {
-  Running& plan = plans_[at(number)];
-  const double share = (instant.now - plan.start) / (plan.end - plan.start);
-  const bool whole = instant.now >= plan.end;
-  instant.planned = std::max(instant.planned, instant.now - plan.start);
-  for (std::size_t i = 0; i < plan.what->bodies.size(); ++i) {
-    const int member = plan.what->bodies[i];
-    world::Body& body = instant.world.bodies[at(member)];
-    instant.world.advance_to(member, instant.now, instant.now);
-    body.plan = {};
-    if (whole) {
-      body.state.velocity += plan.what->arrivals[i].linear;
-      body.state.spin += plan.what->arrivals[i].angular;
-    }
-    instant.bodies.push_back(member);
-  }
-  for (const PlannedRow& row : plan.what->rows) {
-    const double end = reported_time(instant.now, dt_);
-    const Vec3 acted = whole ? row.impulse : Vec3(share * row.early);
-    if (acted.dot(row.contact.normal) > 0) {
-      world::ImpactRecord record = record_of(row.arrives ? end : plan.start, row.contact, row.before,
-                                             row.after, acted, world::ContactKind::rest);
-      record.patch = row.patch;
-      records_.add(record, row.key, false);
-    }
-    if (!whole || !(row.back.dot(row.contact.normal) > 0)) continue;
-    ++instant.report.impacts;
-    instant.listeners.impact(
-        record_of(end, row.contact, row.before, row.after, row.back, world::ContactKind::impact));
-  }
-  instant.report.kinematic_work += whole ? plan.what->kinematic_work : share * plan.what->early_work;
-  plan.runs = false;
-  free_plans_.push_back(number);
-}
-
 // The instant's impact law; false if it could not be solved.
 bool Resting::resolve(Instant& instant, Island& island) {
   const bool ends = instant.now >= dt_;  // the frame
   if (const auto known = ends ? standing_.instant(island) : nullptr) {
-    report_instant(instant, *known);
+    records_.add(instant, *known);
     return true;
   }
   InstantOptions options;
@@ -313,19 +223,10 @@ bool Resting::resolve(Instant& instant, Island& island) {
     throw lcp::unsolved(instant.world.solver, result.status, result.steps, result.residual);
   if (!result.solved) return false;
   instant.report.solves += result.solves;
-  report_instant(instant, result);
+  records_.add(instant, result);
   for (const world::ImpactRecord& record : result.records)
-    add_push(record.contact, record.impulse.impulse + record.tangential.norm());
-  for (Member& member :
-       island.members) {  // what is left of a velocity in contact that does not move the body
-    if (!member.dynamic) continue;
-    const double reach = reach_of(instant.world, member.number);
-    const double speed = member.state.velocity.norm() + reach * member.state.spin.norm();
-    double& stilled = stilled_[at(member.number)];
-    if (stilled + speed >= still_speed(instant.world, member.number)) continue;
-    stilled += speed;
-    member.state.velocity = member.state.spin = Vec3::Zero();
-  }
+    standing_.add(record.contact, record.impulse.impulse + record.tangential.norm());
+  standing_.stop(instant.world, island.members);
   if (ends && !result.impact) standing_.keep(before, island, result);
   if (result.impact && instant.listeners.instant) {
     for (const Member& member : island.members)
@@ -335,80 +236,20 @@ bool Resting::resolve(Instant& instant, Island& island) {
   return true;
 }
 
-void Resting::report_instant(Instant& instant, const InstantResult& result) {
-  world::StepReport& report = instant.report;
-  report.contacts += result.contacts;
-  report.lcp_rows += result.rows;
-  report.lcp_residual = std::max(report.lcp_residual, result.residual);
-  report.kinematic_work += result.kinematic_work;
-  report.energy_gain = std::max(report.energy_gain, result.energy_gain);
-  for (std::size_t i = 0; i < result.records.size(); ++i) {
-    const world::ImpactRecord& record = result.records[i];
-    const bool impact = record.kind == world::ContactKind::impact;
-    report.impacts += impact;
-    if (impact)
-      report_.tangential_work +=
-          std::min(0.0, 0.5 * record.tangential.dot(record.slip_before + record.slip_after));
-    else
-      records_.add(record, result.keys[i], true);
-    if (impact && instant.listeners.impact) instant.listeners.impact(record);
-  }
-}
-
-// A plan for the bodies of the island that are in contact, as long as their paths can be proved, at most to the frame's end;
-// false if there is none.
-bool Resting::plan(Instant& instant, Island& island) {
-  if (const auto known = standing_.plan(island, dt_ - instant.now)) {
+// A plan for the island; false if there is none.
+bool Resting::plan(Instant& instant, const Island& island) {
+  const double left = dt_ - instant.now;
+  if (const auto known = standing_.plan(island, left)) {
     start(instant, known, dt_);
     return true;
   }
-  for (const IslandPair& pair : island.pairs)
-    for (ContactPoint& point : pair.contacts->points) point.lasts = false;
-  const double left = dt_ - instant.now;
-  double length = left;
-  bool may_change = true;
-  for (const Member& member : island.members) {
-    if (!member.dynamic) continue;
-    length = std::min(length, try_length_[at(member.number)]);
-    may_change = may_change && changes_[at(member.number)] < kMostChanges;
-  }
-  if (length > kNearlyAll * left) length = left;
-  using Result = PlanMaker::Result;
-  for (bool shortened = false;;) {
-    const Result result = maker_.make(instant.world, island, instant.now, length,
-                                      {options_.solver, envelope() / dt_, may_change});
-    report_.checked += maker_.checked();
-    instant.report.solves += maker_.solves();
-    instant.report.lcp_residual = std::max(instant.report.lcp_residual, maker_.worst_residual());
-    if (result == Result::proved) {
-      for (const Member& member : island.members)
-        if (member.dynamic) try_length_[at(member.number)] = shortened ? length : 2 * length;
-      break;
-    }
-    if (result == Result::unsolved && options_.solver.chosen)
-      throw lcp::unsolved(instant.world.solver, maker_.status(), maker_.steps(), maker_.worst_residual());
-    shortened = shortened || result != Result::changes;
-    if (result == Result::changes)
-      for (const Member& member : island.members) ++changes_[at(member.number)];
-    const bool meets =
-        (result == Result::meets || result == Result::changes) && maker_.meeting() > kShortest * dt_;
-    if (result == Result::unsolved || (!meets && length < kShortest * dt_)) return false;
-    length = meets ? std::min(maker_.meeting(), 0.999 * length) : 0.5 * length;
-  }
-  const auto planned = std::make_shared<const Planned>(maker_.take());
+  const auto planned = maker_.make(instant.world, island, instant.now, dt_, options_.solver, instant.report);
+  report_.checked += maker_.checked();
+  if (!planned) return false;
+  const double length = maker_.length();
   if (start(instant, planned, length == left ? dt_ : instant.now + length))
     standing_.keep(island, length, planned);
   return true;
-}
-
-// Whether these bodies nearly stand, on the whole. rest_speed: m/s, a margin in a frame.
-static bool settles(std::span<const Member> members, double rest_speed) {
-  double energy = 0, mass = 0;
-  for (const Member& member : members) {
-    energy += member.state.kinetic_energy();
-    mass += member.state.mass;
-  }
-  return energy < 0.5 * mass * std::pow(kSettles * rest_speed, 2);
 }
 
 // A pile has no impacts of its own, only plans: one in a frame while it is calm, else two; and more, if it is so small that shorter
@@ -429,7 +270,6 @@ void Resting::go_on(Instant& instant, PileList::Pile& pile) {
   options.sweeps = options_.sweeps;
   options.visits = options_.visits;
   options.report_rows = static_cast<bool>(instant.listeners.impact);
-  options.settles = settles(members, contacts_.margin() / dt_);
   Planned planned;
   double length = pile.length > kNearlyAll * left ? left : pile.length;
   for (bool stopped = false;;) {
@@ -478,29 +318,9 @@ bool Resting::start(Instant& instant, const std::shared_ptr<const Planned>& plan
   report_.resting += planned->pushing;
   report_.correction = std::max(report_.correction, planned->correction);
   if (planned->bodies.empty()) return false;
-  int number = static_cast<int>(plans_.size());
-  if (free_plans_.empty()) {
-    plans_.emplace_back();
-  } else {
-    number = free_plans_.back();
-    free_plans_.pop_back();
-  }
-  for (const PlannedRow& row : planned->rows) add_push(row.contact, row.impulse.norm());
-  bool stands = true;
-  for (std::size_t i = 0; i < planned->bodies.size(); ++i) {
-    world::Body& body = instant.world.bodies[at(planned->bodies[i])];
-    body.plan = planned->motions[i];
-    body.plan.number = number;
-    const double speed =
-        body.plan.linear.norm() + reach_of(instant.world, planned->bodies[i]) * body.plan.angular.norm();
-    if (speed < (planned->correction > kStill * envelope() ? kStill * envelope() / dt_
-                                                           : still_speed(instant.world, planned->bodies[i])))
-      body.plan.linear = body.plan.angular = Vec3::Zero();
-    else
-      stands = false;
-  }
-  plans_[at(number)] = {true, instant.now, end, planned};
-  return stands;
+  for (const PlannedRow& row : planned->rows) standing_.add(row.contact, row.impulse.norm());
+  plans_.start(instant.world, {instant.now, end, planned});
+  return standing_.stop(instant.world, *planned);
 }
 
 }  // namespace fc::resting

@@ -5,13 +5,12 @@
 #include <memory>
 
 #include "ch05_resting_contact/envelope.hpp"
-#include "ch05_resting_contact/impact_law.hpp"
 #include "ch05_resting_contact/kinematic_watch.hpp"
 #include "ch05_resting_contact/pile.hpp"
 #include "ch05_resting_contact/pile_list.hpp"
+#include "ch05_resting_contact/planned.hpp"
 #include "ch05_resting_contact/rest_records.hpp"
 #include "ch05_resting_contact/standing.hpp"
-#include "ch05_resting_contact/work_budget.hpp"
 
 namespace fc::resting {
 
@@ -26,9 +25,9 @@ struct RestReport {
   int largest_island = 0;                                         // contact points
   int sweeps = 0;                                                 // of Gauss-Seidel, in piles
   double correction = 0;  // m, the largest that a body's point was moved to put gaps right
-  double correction_energy =
-      0;  // J, that bodies in contact gained beyond what kinematic bodies did: by corrections of
-          // positions, and by the plans' error, which is of second order
+  // J, that bodies in contact gained beyond what kinematic bodies did: by corrections of positions, and by the plans' error, which
+  // is of second order
+  double correction_energy = 0;
   double tangential_work = 0;       // J, by impulses along the surfaces
   int shortened = 0;                // bodies of piles whose paths were shortened
   double lost_impulse = 0;          // N s, the momentum that this took
@@ -62,56 +61,29 @@ class Resting : public world::Planner {
                         const world::Listeners& listeners) override;
 
  private:
-  struct Running {  // a plan
-    bool runs = false;
-    double start = 0, end = 0;
-    std::shared_ptr<const Planned> what;
-  };
-  // An instant, and what is to be reported of it.
-  struct Instant {
-    world::World& world;
-    double now;
-    world::StepReport& report;
-    const world::Listeners& listeners;
-    std::vector<int> bodies = {};   // whose plans end; the list grows
-    std::vector<int> changed = {};  // that have got another motion
-    double planned = 0;             // s, how long the plans have lasted that end here
-    double gained = 0;  // J, by all of them since they got their last, beyond what kinematic bodies did
-  };
   std::vector<int> go_on(Instant instant);
-  void go_on(Instant& instant, Island& island);
+  bool go_on(Instant& instant, Island& island);
   void go_on(Instant& instant, PileList::Pile& pile);
+  bool is_pile(const Instant& instant, const Island& island);
   double stand(Instant& instant, std::span<Member> members);
   void set_motions(Instant& instant, std::span<const Member> members, double before, double work);
-  void add_push(const lcp::Contact& contact, double impulse);
-  double still_speed(const world::World& world, int body) const;
-  bool is_too_much(const Instant& instant, const Island& island) const;
-  void join_pile(const Island& island, bool must);
-  void end_plan(Instant& instant, int number);
   bool resolve(Instant& instant, Island& island);
-  bool plan(Instant& instant, Island& island);
+  bool plan(Instant& instant, const Island& island);
   bool start(Instant& instant, const std::shared_ptr<const Planned>& planned, double end);
-  void report_instant(Instant& instant, const InstantResult& result);
 
+  RestOptions options_;
+  double frame_, dt_;  // s, of a frame, and of the part of it at hand
   Contacts contacts_;
   IslandFinder islands_;
   std::unique_ptr<ContactLaw> law_;
   PlanMaker maker_;
   PilePlanner pile_planner_;
-  WorkBudget budget_;
+  PileList piles_;
+  RunningPlans plans_;
   Standing standing_;
   KinematicWatch watch_;
-  RestOptions options_;
-  double frame_, dt_;  // s, of a frame, and of the part of it at hand
-  std::vector<Running> plans_;
-  std::vector<int> free_plans_;
-  PileList piles_;
-  std::vector<int> meetings_;       // of each body, in this frame
-  std::vector<int> changes_;        // of its plans, likewise: those that ended because impulses had to change
-  std::vector<double> stilled_;     // m/s, that was taken as rest in this frame
-  std::vector<double> pushed_;      // N s, by all impulses of this frame, their sizes added
-  std::vector<double> try_length_;  // s, of each body's next plan at most
-  std::vector<double> energy_;      // J, of each body when it got its motion, in this frame
+  std::vector<int> meetings_;   // of each body, in this frame
+  std::vector<double> energy_;  // J, of each body when it got its motion, in this frame
   RestReport report_;
   RestRecords records_;
 };

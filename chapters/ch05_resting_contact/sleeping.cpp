@@ -1,24 +1,21 @@
 #include "ch05_resting_contact/sleeping.hpp"
 
+#include "ch05_resting_contact/standing.hpp"
+
 namespace fc::resting {
 namespace {
-
-world::Body& body_of(world::World& world, const Member& member) {
-  return world.bodies[at(member.number)];
-}
 
 // Whether the island may sleep; counts for how long its bodies have been slow.
 bool rests(world::World& world, const Island& island, double dt) {
   bool lies = false, all = true;
   for (const Member& member : island.members) {
-    world::Body& body = body_of(world, member);
+    world::Body& body = world.bodies[at(member.number)];
     if (!member.dynamic) {
       lies = true;
       all = all && !world.is_moving_kinematic(member.number);
       continue;
     }
-    const double reach = world.shapes[at(body.shape)].reach;
-    const double speed = body.state.velocity.norm() + reach * body.state.spin.norm();
+    const double speed = fastest_point(world, member.number, body.state.velocity, body.state.spin);
     body.still = speed <= world.effects.sleep->speed ? body.still + dt : 0;
     all = all && body.still >= world.effects.sleep->after;
   }
@@ -29,7 +26,7 @@ bool rests(world::World& world, const Island& island, double dt) {
 
 void wake(world::World& world, std::span<const Member> members, world::StepReport& report) {
   for (const Member& member : members) {
-    world::Body& body = body_of(world, member);
+    world::Body& body = world.bodies[at(member.number)];
     if (!member.dynamic || !body.asleep) continue;
     body.asleep = false;
     body.still = 0;
@@ -46,7 +43,7 @@ void fall_asleep(world::World& world, IslandFinder& islands, double dt, world::S
     if (!rests(world, island, dt)) continue;
     for (const Member& member : island.members) {
       if (!member.dynamic) continue;
-      world::Body& body = body_of(world, member);
+      world::Body& body = world.bodies[at(member.number)];
       report.slept_energy += body.state.kinetic_energy();
       ++report.falls_asleep;
       body.state.velocity = body.state.spin = Vec3::Zero();
