@@ -29,6 +29,9 @@ if(FC_SANITIZE)
                                                -fno-omit-frame-pointer
                                                -Wno-maybe-uninitialized)  # GCC's manual: sanitizers give false alarms
   target_link_options(fc_settings INTERFACE -fsanitize=address,undefined)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")  # compiling takes longer than running here: passes that gain little beside the checks
+    target_compile_options(fc_settings INTERFACE -fno-tree-pta -fno-schedule-insns2 -fno-gcse -fno-tree-pre)
+  endif()
 endif()
 
 find_package(Eigen3 REQUIRED NO_MODULE)
@@ -93,15 +96,21 @@ endfunction()
 
 # fc_add_test(NAME SOURCES ... LINKS ...): a GoogleTest executable whose tests CTest lists one by one. Tests find the
 # source tree, the executables and the public test data through the environment variables set here.
+#   UNITY     as for libraries: the files are compiled as one, but for those after APART, whose names meet others' names
+#   TOGETHER  CTest runs the tests in one process: a study that all of them read is then made once, not once for each
 function(fc_add_test name)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINKS" ${ARGN})
+  cmake_parse_arguments(ARG "UNITY;TOGETHER" "TIMEOUT" "SOURCES;APART;LINKS" ${ARGN})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 300)
   endif()
   if(FC_SANITIZE)  # ten times as slow
     math(EXPR ARG_TIMEOUT "5 * ${ARG_TIMEOUT}")
   endif()
-  add_executable(${name} ${ARG_SOURCES})
+  add_executable(${name} ${ARG_SOURCES} ${ARG_APART})
+  if(ARG_UNITY)
+    set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+    set_source_files_properties(${ARG_APART} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  endif()
   target_link_libraries(${name} PRIVATE fc_settings ${ARG_LINKS} Eigen3::Eigen fmt::fmt GTest::gtest_main)
   target_precompile_headers(${name} REUSE_FROM fc_precompiled_tests)
   target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR} ${CMAKE_SOURCE_DIR}/chapters)
@@ -110,6 +119,11 @@ function(fc_add_test name)
   if(FC_SANITIZE)
     target_compile_definitions(${name} PRIVATE FC_SANITIZED)  # tests of many random scenes take fewer
   endif()
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60
-                       PROPERTIES TIMEOUT ${ARG_TIMEOUT} ENVIRONMENT "RC_PARAMS=seed=20080101")
+  set(properties TIMEOUT ${ARG_TIMEOUT} ENVIRONMENT "RC_PARAMS=seed=20080101")
+  if(ARG_TOGETHER)
+    add_test(NAME ${name} COMMAND ${name})
+    set_tests_properties(${name} PROPERTIES ${properties})
+  else()
+    gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES ${properties})
+  endif()
 endfunction()

@@ -170,7 +170,7 @@ TEST(Bead, InATroughIsAPendulum) {
   for (const double phi : {0.1, 1.0}) {
     const double exact = period(length, phi);
     double last_loss = 0;
-    for (const double dt : {1 / 60.0, 1 / 120.0, 1 / 240.0}) {
+    for (const double dt : kFrames) {
       const Swing s = swing(file, length, phi, dt, 3, delta);
       const std::string with = " at " + number(phi) + " rad, with frames of " + number(dt) + " s";
       ASSERT_EQ(s.crossings.size(), 3U) << with;

@@ -18,7 +18,7 @@ TEST(Bunny, InABowl) {
       independent::make_solid(independent::read_obj(scenes / "bowl.obj"), 1),
       independent::make_solid(independent::read_obj(bunny_file), 1000)};
   ASSERT_EQ(solids[0].mesh.triangles.size(), 768U);
-  for (const double dt : {1 / 60.0, 1 / 120.0, 1 / 240.0}) {
+  for (const double dt : kFrames) {
     const std::string with = " with frames of " + number(dt) + " s";
     Simulation sim(scene, dt);
     const double start = sim.energy();

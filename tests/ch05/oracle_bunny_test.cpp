@@ -76,7 +76,7 @@ TEST(Bunny, StandsOnThreePoints) {
   ASSERT_GT(face.margin, 0.01) << "m: a bunny on its feet";
   const double weight = 10 * solid.mass;
   for (const double tilt : {0.0, 0.01})
-    for (const double dt : {1 / 60.0, 1 / 120.0, 1 / 240.0}) {
+    for (const double dt : kFrames) {
       const std::string with = " tilted by " + number(tilt) + " rad, with frames of " + number(dt) + " s";
       const Quat turn = Quat(Eigen::AngleAxisd(tilt, Vec3(0.6, 0.8, 0))) *
                         Quat::FromTwoVectors(face.normal, -Vec3::UnitZ());

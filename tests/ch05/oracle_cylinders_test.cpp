@@ -6,6 +6,7 @@
 
 #include "oracles.hpp"
 
+namespace oracle_cylinders {  // the chapter's oracles are compiled as one
 namespace {
 
 using namespace fc_test;
@@ -116,7 +117,7 @@ TEST(Cylinders, PiledBetweenWalls) {
       fc::read_scene({FC_SOURCE_DIR "/chapters/ch05_resting_contact/scenes/cylinders.yaml", {}, {}, 5});
   ASSERT_EQ(scene.bodies.size(), 69U);
   const Judge judge(scene);
-  for (const double dt : {1 / 60.0, 1 / 120.0, 1 / 240.0}) {
+  for (const double dt : kFrames) {
     const std::string with = " with frames of " + number(dt) + " s";
     Simulation sim(scene, dt);
     const double weight = weight_of(sim), start = sim.energy();
@@ -159,7 +160,7 @@ TEST(Cylinders, StandOnEachOther) {
       "], orientation: [0.7071067811865476, 0.7071067811865476, 0, 0]}\n";
   const fc::Scene scene = Simulation::read(text);
   const Judge judge(scene);
-  for (const double dt : {1 / 60.0, 1 / 120.0, 1 / 240.0}) {
+  for (const double dt : kFrames) {
     const std::string with = " with frames of " + number(dt) + " s";
     Simulation sim(scene, dt);
     double rise = 0, energy = sim.energy();
@@ -184,3 +185,4 @@ TEST(Cylinders, StandOnEachOther) {
 }
 
 }  // namespace
+}  // namespace oracle_cylinders

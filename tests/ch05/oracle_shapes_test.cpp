@@ -4,6 +4,7 @@
 
 #include "oracles.hpp"
 
+namespace oracle_shapes {  // the chapter's oracles are compiled as one
 namespace {
 
 using namespace fc_test;
@@ -98,3 +99,4 @@ TEST(Shapes, ALiftCarriesACubeAlongItsPath) {
 }
 
 }  // namespace
+}  // namespace oracle_shapes

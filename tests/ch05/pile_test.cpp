@@ -159,12 +159,13 @@ TEST(Heap, NothingOverlaps) {
   const std::filesystem::path scenes = FC_SOURCE_DIR "/chapters/ch05_resting_contact/scenes";
   for (const std::string scene : {"heap", "mixed"}) {
     const auto folder = scratch(scene), file = scenes / (scene + ".yaml");
-    ASSERT_EQ(
-        run(FC_BIN_DIR "/ch05_resting_contact " + file.string() + " --poses --quiet --out " + folder.string())
-            .exit_code,
-        0)
+    const auto overrides = seconds_of("1.5");
+    ASSERT_EQ(run(FC_BIN_DIR "/ch05_resting_contact " + file.string() + options_of(overrides) +
+                  " --poses --quiet --out " + folder.string())
+                  .exit_code,
+              0)
         << scene;
-    if (scene == "heap") expect_no_overlap(file, {}, 5, folder);
+    if (scene == "heap") expect_no_overlap(file, overrides, 5, folder);
     const Table steps = read_table(folder / "steps.csv");
     const auto cell = [&](int row, const char* name) {
       return std::stod(

@@ -5,6 +5,7 @@
 
 #include "rubbing.hpp"
 
+namespace oracle_impact {  // the chapter's oracles are compiled as one
 namespace {
 
 using namespace fc_test;
@@ -167,3 +168,4 @@ TEST(Impact, R24DissipationIdentity) {
 }
 
 }  // namespace
+}  // namespace oracle_impact

@@ -4,6 +4,7 @@
 
 #include "rubbing.hpp"
 
+namespace oracle_roll {  // the chapter's oracles are compiled as one
 namespace {
 
 using namespace fc_test;
@@ -209,3 +210,4 @@ TEST(Roll, R23Trough) {
 }
 
 }  // namespace
+}  // namespace oracle_roll

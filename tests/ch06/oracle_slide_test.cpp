@@ -3,6 +3,7 @@
 
 #include "rubbing.hpp"
 
+namespace oracle_slide {  // the chapter's oracles are compiled as one
 namespace {
 
 using namespace fc_test;
@@ -357,3 +358,4 @@ TEST(Slide, R12ShearedStack) {
 }
 
 }  // namespace
+}  // namespace oracle_slide

@@ -3,6 +3,7 @@
 
 #include "rubbing.hpp"
 
+namespace oracle_spin {  // the chapter's oracles are compiled as one
 namespace {
 
 using namespace fc_test;
@@ -201,3 +202,4 @@ TEST(Spin, R18WhichWayAPencilSlips) {
 }
 
 }  // namespace
+}  // namespace oracle_spin

@@ -4,6 +4,7 @@
 
 #include "rubbing.hpp"
 
+namespace oracle_stand {  // the chapter's oracles are compiled as one
 namespace {
 
 using namespace fc_test;
@@ -323,3 +324,4 @@ TEST(Stand, HouseOfCards) {
 }
 
 }  // namespace
+}  // namespace oracle_stand

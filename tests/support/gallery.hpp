@@ -28,6 +28,20 @@ inline independent::Rounded shape_of(const fc::ShapeSpec& spec) {
   return independent::rounded_mesh(mesh);
 }
 
+// The seconds of a scene that are run: all of them, or under sanitizers so many.
+inline std::vector<std::string> seconds_of([[maybe_unused]] const char* sanitized) {
+#ifdef FC_SANITIZED
+  return {std::string("step.duration=") + sanitized};
+#else
+  return {};
+#endif
+}
+inline std::string options_of(const std::vector<std::string>& overrides) {
+  std::string options;
+  for (const std::string& set : overrides) options += " --set " + set;
+  return options;
+}
+
 // Reads poses.csv in `folder`, which a run of the scene (as read for `chapter`, with these values set) wrote.
 inline void expect_no_overlap(const std::filesystem::path& file, const std::vector<std::string>& overrides,
                               int chapter, const std::filesystem::path& folder) {
