@@ -108,11 +108,11 @@ void GaussSeidel::sweep() {
 // ANCHOR_END: sweep
 
 // Gives the rows that were added since the last time their places. A row has to wait for the one before it if both move the same
-// body, and neighbours do: pairs come body by body. So eight pairs go in step, from eight places of the list, the first row of each,
-// then the second of each: the processor works on several at once. In each part of the list pairs keep their order, so what one
-// learns, the next one hears in the same sweep.
+// body, and neighbours do: pairs come body by body. So of a long list eight pairs go in step, from eight places of it, the first row
+// of each, then the second of each: the processor works on several at once. In each part of the list pairs keep their order, so what
+// one learns, the next one hears in the same sweep.
 void GaussSeidel::arrange() {
-  constexpr int kInStep = 8;
+  constexpr int kInStep = 8, kLeastPart = 64;
   if (arranged_ == rows()) return;
   pairs_.clear();
   for (int number = arranged_; number < rows(); ++number) {
@@ -125,7 +125,7 @@ void GaussSeidel::arrange() {
   }
   added_.assign(rows_.begin() + arranged_, rows_.end());
   const int offset = arranged_, count = static_cast<int>(pairs_.size()),
-            part = (count + kInStep - 1) / kInStep;
+            part = std::max((count + kInStep - 1) / kInStep, std::min(count, kLeastPart));
   for (int i = 0; i < part; ++i) {
     bool any = true;
     for (int k = 0; std::exchange(any, false); ++k)

@@ -14,7 +14,8 @@ constexpr double kPathFloor = 1.0 / 64;
 // The largest part of their kinetic energy that a pile's plans may add to it in a frame.
 constexpr double kMostGained = 0.01;
 
-// A pile settles when its bodies are slower than this part of a margin in a frame. Then it is swept until this residual is reached, or so many rows were looked at.
+// A pile settles when its bodies are slower than this part of a margin in a frame. Then it is swept until this residual is reached,
+// or so many rows were looked at.
 constexpr double kSettles = 1.0 / 4, kSettled = 2e-4;
 constexpr int kMostVisits = 150'000;
 
@@ -115,16 +116,6 @@ class Shortening {
   std::vector<std::vector<int>> pairs_of_;
 };
 
-// Whether these bodies nearly stand, on the whole. rest_speed: m/s, a margin in a frame.
-bool settles(std::span<const Member> members, double rest_speed) {
-  double energy = 0, mass = 0;
-  for (const Member& member : members) {
-    energy += member.state.kinetic_energy();
-    mass += member.state.mass;
-  }
-  return energy < 0.5 * mass * std::pow(kSettles * rest_speed, 2);
-}
-
 }  // namespace
 
 Planned PilePlanner::make(const world::World& world, std::span<const Member> members, double now,
@@ -137,7 +128,7 @@ Planned PilePlanner::make(const world::World& world, std::span<const Member> mem
   courses_.find(world, true);
   rows_.start(world);
   swept_ = gauss_seidel_->run(sweeps(options_.sweeps));
-  if (settles(members, contacts_.margin() / options_.frame))
+  if (are_slow(members, kSettles * contacts_.margin() / options_.frame))
     while (swept_ * rows() < kMostVisits && gauss_seidel_->residual() > kSettled)
       swept_ += gauss_seidel_->run(options_.sweeps);
   find_paths(world);

@@ -13,6 +13,15 @@ Twist free_velocities(const Courses& courses, std::size_t i) {
   return {mean.linear + more.linear, mean.angular + more.angular};
 }
 
+bool are_slow(std::span<const Member> members, double speed) {
+  double energy = 0, mass = 0;
+  for (const Member& member : members) {
+    energy += member.state.kinetic_energy();
+    mass += member.state.mass;
+  }
+  return energy < 0.5 * mass * speed * speed;
+}
+
 void PileRows::start(const world::World& world) {
   rows_.clear();
   late_.clear();

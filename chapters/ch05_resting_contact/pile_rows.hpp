@@ -12,6 +12,9 @@ namespace fc::resting {
 // Of a member of a plan, at its end: after free flight.
 Twist free_velocities(const Courses& courses, std::size_t member);
 
+// Whether the members have less kinetic energy than if all went at this speed (m/s).
+bool are_slow(std::span<const Member> members, double speed);
+
 class PileRows {
  public:
   PileRows(Contacts& contacts, const Courses& courses, GaussSeidel& gauss_seidel)

@@ -18,6 +18,9 @@ constexpr int kMostBounces = 64;
 constexpr int kManyRows = 100;
 constexpr double kShortestOfPile = 1.0 / 512;
 
+// A pile is slow if its bodies go no farther in a frame than this, in margins.
+constexpr double kSlow = 4;
+
 // A pile of so many bodies stays one until a frame whose number can be divided by this.
 constexpr std::size_t kLarge = 100;
 constexpr int kLookAgain = 8;
@@ -252,7 +255,7 @@ bool Resting::plan(Instant& instant, const Island& island) {
   return true;
 }
 
-// A pile has no impacts of its own, only plans: one in a frame while it is calm, else two; and more, if it is so small that shorter
+// A pile has no impacts of its own, only plans: one in a frame while it is calm and slow, else two; and more, if it is so small that shorter
 // plans cost less than paths that are shortened.
 void Resting::go_on(Instant& instant, PileList::Pile& pile) {
   pile.done = true;
@@ -263,7 +266,7 @@ void Resting::go_on(Instant& instant, PileList::Pile& pile) {
   set_motions(instant, members, before, work);
   if (instant.now >= dt_) return;
   const bool first = instant.now < (0.5 - kShortest) * dt_;
-  bool whole = first && piles_.is_calm(pile);
+  bool whole = first && piles_.is_calm(pile) && are_slow(members, kSlow * envelope() / dt_);
   double end = first && !whole ? 0.5 * dt_ : dt_, left = end - instant.now;
   PileOptions options;
   options.frame = dt_;
