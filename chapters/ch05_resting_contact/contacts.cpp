@@ -58,6 +58,28 @@ SurfacePoint surface_point(const hulls::Model& model, const Vec3& point, const V
   return surface;
 }
 
+// Whether points face each other across no more than the gap along their plane: then no other plane parts the two better.
+bool face_each_other(const Manifold& manifold, double rounding) {
+  return std::any_of(
+      manifold.points.begin(), manifold.points.begin() + manifold.count, [&](const ManifoldPoint& point) {
+        return point.key != ManifoldPoint::kBroughtTogether && point.gap <= manifold.gap + rounding;
+      });
+}
+
+ContactPoint contact_point(const hulls::Model& model_a, const hulls::Model& model_b, const Pose& a,
+                           const Pose& b, const Manifold& manifold, const ManifoldPoint& from) {
+  ContactPoint point;
+  point.a = surface_point(model_a, from.point_a, a.rotation.transpose() * manifold.normal);
+  point.b = surface_point(model_b, from.point_b, -(b.rotation.transpose() * manifold.normal));
+  // A plane that is no face of B turns with A, but not with a ball.
+  const bool ball_a = model_a.mesh.vertices.size() == 1, ball_b = model_b.mesh.vertices.size() == 1;
+  point.balls = ball_a && ball_b;
+  point.of_b = manifold.of_b || ball_a;
+  point.local_normal = (point.of_b ? b : a).rotation.transpose() * manifold.normal;
+  point.key = from.key;
+  return point;
+}
+
 }  // namespace
 
 Contacts::Contacts(const world::World& world, double margin) : margin_(margin) {
@@ -141,6 +163,16 @@ double Contacts::axis_gap(const world::World& world, const PairContacts& pair, c
                          pair.axis_at(a, b));
 }
 
+// The plane that the pair has from its last search, like GJK's of an overlap: without witness points.
+ca::GjkResult Contacts::known_plane(const world::World& world, const PairContacts& pair, const Pose& a,
+                                    const Pose& b) const {
+  ca::GjkResult plane;
+  plane.status = ca::GjkResult::Status::overlapping;
+  plane.normal = pair.axis_at(a, b);
+  plane.lower = axis_gap(world, pair, a, b);
+  return plane;
+}
+
 std::vector<ContactPoint> Contacts::points_at(const world::World& world, PairContacts& pair, const Pose& a,
                                               const Pose& b, double& gap) {
   PairContacts there = pair;
@@ -184,62 +216,33 @@ double Contacts::search_convex(const world::World& world, PairContacts& pair, co
   const ca::PairPose pose(a, b);
   const ManifoldSide side_a{world.model_of(pair.a), face_lists_[at(world.bodies[pair.a].shape)]},
       side_b{world.model_of(pair.b), face_lists_[at(world.bodies[pair.b].shape)]};
-  const auto slack = [&](double gap) { return std::clamp(0.25 * gap, 0.0, kSlack * margin_); };
   Manifold manifold;
-  ca::GjkResult result;
-  bool found = false;
-  if (pair.known) {
-    // The plane that is known parts them best if points face each other across no more than the gap along it.
-    result.normal = pair.axis_at(a, b);
-    result.lower = axis_gap(world, pair, a, b);
-    result.status = ca::GjkResult::Status::overlapping;
-    if (result.lower > 0 && result.lower <= reach) {
-      find_manifold(side_a, side_b, pose, result, slack(result.lower), kFar * margin_ + (reach - margin_),
-                    manifold);
-      for (int i = 0; i < manifold.count && !found; ++i) {
-        const ManifoldPoint& point = manifold.points[at(i)];
-        found =
-            point.key != ManifoldPoint::kBroughtTogether && point.gap <= manifold.gap + world.tolerance / 16;
-      }
-    }
+  const auto find_points = [&](const ca::GjkResult& plane) {
+    const double slack = std::clamp(0.25 * plane.lower, 0.0, kSlack * margin_);
+    find_manifold(side_a, side_b, pose, plane, slack, kFar * margin_ + (reach - margin_), manifold);
+  };
+  const ca::GjkResult known = pair.known ? known_plane(world, pair, a, b) : ca::GjkResult{};
+  bool found = pair.known && known.lower > 0 && known.lower <= reach;
+  if (found) {
+    find_points(known);
+    found = face_each_other(manifold, world.tolerance / 16);
   }
-  if (!found) result = nearest(world, pair, pose);
-  if (!found && !(result.lower > 0) && pair.known) {
-    // An overlap (of a pose that will not be) has no plane: the last one will be near to the next.
-    const double along = axis_gap(world, pair, a, b);
-    if (along > result.lower) {
-      result.lower = along;
-      result.normal = pair.axis_at(a, b);
-      result.status = ca::GjkResult::Status::overlapping;
-    }
-  }
+  ca::GjkResult result = found ? known : nearest(world, pair, pose);
+  // An overlap (of a pose that will not be) has no plane: the last one will be near to the next.
+  if (!found && !(result.lower > 0) && pair.known && known.lower > result.lower) result = known;
   pair.of_b = false;
   pair.axis = a.rotation.transpose() * result.normal;
   pair.axis_gap = result.lower;
   pair.axis_known = true;
   const std::vector<ContactPoint> before = std::exchange(pair.points, {});
   if (result.lower > reach) return result.lower;
-  if (!found)
-    find_manifold(side_a, side_b, pose, result, slack(result.lower), kFar * margin_ + (reach - margin_),
-                  manifold);
+  if (!found) find_points(result);
   pair.axis_gap = manifold.gap;
   pair.of_b = manifold.of_b;
   pair.axis = (manifold.of_b ? b : a).rotation.transpose() * manifold.normal;
   pair.points.reserve(at(manifold.count));
-  for (int i = 0; i < manifold.count; ++i) {
-    const ManifoldPoint& p = manifold.points[at(i)];
-    ContactPoint point;
-    point.a = surface_point(world.model_of(pair.a), p.point_a, a.rotation.transpose() * manifold.normal);
-    point.b = surface_point(world.model_of(pair.b), p.point_b, -(b.rotation.transpose() * manifold.normal));
-    // A plane that is no face of B turns with A, but not with a ball.
-    const bool ball_a = world.model_of(pair.a).mesh.vertices.size() == 1,
-               ball_b = world.model_of(pair.b).mesh.vertices.size() == 1;
-    point.balls = ball_a && ball_b;
-    point.of_b = manifold.of_b || ball_a;
-    point.local_normal = (point.of_b ? b : a).rotation.transpose() * manifold.normal;
-    point.key = p.key;
-    add(pair, point, before);
-  }
+  for (int i = 0; i < manifold.count; ++i)
+    add(pair, contact_point(side_a.model, side_b.model, a, b, manifold, manifold.points[at(i)]), before);
   return std::max(result.lower, manifold.gap);
 }
 

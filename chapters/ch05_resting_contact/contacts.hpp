@@ -131,6 +131,8 @@ class Contacts {
 
  private:
   double search(const world::World& world, PairContacts& pair, const Pose& a, const Pose& b, double reach);
+  ca::GjkResult known_plane(const world::World& world, const PairContacts& pair, const Pose& a,
+                            const Pose& b) const;
   double search_convex(const world::World& world, PairContacts& pair, const Pose& a, const Pose& b,
                        double reach);
   double search_mesh(const world::World& world, PairContacts& pair, const Pose& a, const Pose& b);
