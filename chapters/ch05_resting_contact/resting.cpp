@@ -21,6 +21,9 @@ constexpr double kShortestOfPile = 1.0 / 512;
 // A pile is slow if its bodies go no farther in a frame than this, in margins.
 constexpr double kSlow = 4;
 
+// A pile's plan for the whole frame may shorten the paths of this part of its bodies.
+constexpr double kFew = 1.0 / 64;
+
 // A pile of so many bodies stays one until a frame whose number can be divided by this.
 constexpr std::size_t kLarge = 100;
 constexpr int kLookAgain = 8;
@@ -281,7 +284,9 @@ void Resting::go_on(Instant& instant, PileList::Pile& pile) {
     report_.sweeps += pile_planner_.sweeps();
     const bool is_clear = pile_planner_.blocked().empty() && pile_planner_.shortened() == 0;
     if (!is_clear) piles_.was_shortened(pile);
-    if (std::exchange(whole, false) && !(is_clear && !pile_planner_.gains())) {
+    const bool is_enough = pile_planner_.blocked().empty() && !pile_planner_.gains() &&
+                           pile_planner_.shortened() <= kFew * static_cast<double>(pile.bodies.size());
+    if (std::exchange(whole, false) && !is_enough) {
       end = 0.5 * dt_;
       length = left = end - instant.now;
       continue;

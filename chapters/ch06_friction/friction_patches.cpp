@@ -116,20 +116,23 @@ void PatchedGaussSeidel::rows_arranged() {
 }
 
 // ANCHOR: patch
-template <bool kVelocities>
-void PatchedGaussSeidel::sweep(Patch& patch) {
-  float load = 0, moment = 0;  // N s, N m s
+void PatchedGaussSeidel::sweep(Patch& patch, bool velocities, bool paths) {
+  float load = 0, moment = 0, path_load = 0, path_moment = 0;  // N s, N m s
   for (int i = patch.first; i < patch.end; ++i) {
     const Member& member = members_[at(i)];
     const Row& row = rows_[at(member.place)];
-    const float normal = (kVelocities ? row.impulse : row.correction) * member.inverse_root;
-    load += normal;
-    moment += normal * member.distance;
+    load += row.impulse * member.inverse_root;
+    moment += row.impulse * member.inverse_root * member.distance;
+    path_load += row.correction * member.inverse_root;
+    path_moment += row.correction * member.inverse_root * member.distance;
   }
   State &a = states_[at(patch.a)], &b = states_[at(patch.b)];
-  Vec8 &of_a = kVelocities ? a.velocity : a.path, &of_b = kVelocities ? b.velocity : b.path;
-  float* impulse = kVelocities ? patch.impulse : patch.correction;
-  const float* start = kVelocities ? patch.start : patch.path_start;
+  if (velocities) push(patch, load, moment, patch.start, patch.impulse, a.velocity, b.velocity);
+  if (paths) push(patch, path_load, path_moment, patch.path_start, patch.correction, a.path, b.path);
+}
+
+void PatchedGaussSeidel::push(const Patch& patch, float load, float moment, const float* start,
+                              float* impulse, Vec8& of_a, Vec8& of_b) {
   const auto slip = [&](int k) {
     return (patch.lines[k].a * of_a + patch.lines[k].b * of_b).sum() + start[k];
   };
@@ -139,19 +142,16 @@ void PatchedGaussSeidel::sweep(Patch& patch) {
   const float most = patch.mu * moment * patch.twist_root;
   const float wanted[3] = {x * shorter, y * shorter, std::clamp(impulse[2] - slip(2), -most, most)};
   for (int k = 0; k < 3; ++k) {
-    const float push = wanted[k] - impulse[k];
+    const float change = wanted[k] - impulse[k];
     impulse[k] = wanted[k];
-    of_a += push * patch.lines[k].a;
-    of_b += push * patch.lines[k].b;
+    of_a += change * patch.lines[k].a;
+    of_b += change * patch.lines[k].b;
   }
 }
 // ANCHOR_END: patch
 
 void PatchedGaussSeidel::sweep_more(bool velocities, bool paths) {
-  for (Patch& patch : patches_) {
-    if (velocities) sweep<true>(patch);
-    if (paths) sweep<false>(patch);
-  }
+  for (Patch& patch : patches_) sweep(patch, velocities, paths);
 }
 
 void PatchedGaussSeidel::apply_more_guesses() {
@@ -168,7 +168,7 @@ void PatchedGaussSeidel::apply_more_guesses() {
 
 // Its patch has less to carry.
 void PatchedGaussSeidel::row_dropped(int row) {
-  if (const int patch = patch_of(row); patch >= 0) sweep<true>(patches_[at(patch)]);
+  if (const int patch = patch_of(row); patch >= 0) sweep(patches_[at(patch)], true, false);
 }
 
 void PatchedGaussSeidel::drop_all() {

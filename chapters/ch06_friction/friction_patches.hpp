@@ -43,8 +43,9 @@ class PatchedGaussSeidel : public resting::GaussSeidel {
     float inverse_root, distance;  // m, from the centre
     Vec3 arm;                      // m, from the centre to the point, along the surface
   };
-  template <bool kVelocities>
-  void sweep(Patch& patch);
+  void sweep(Patch& patch, bool velocities, bool paths);
+  static void push(const Patch& patch, float load, float moment, const float* start, float* impulse,
+                   Vec8& of_a, Vec8& of_b);
 
   void rows_arranged() override;
   void sweep_more(bool velocities, bool paths) override;
