@@ -14,10 +14,8 @@ constexpr double kPathFloor = 1.0 / 64;
 // The largest part of their kinetic energy that a pile's plans may add to it in a frame.
 constexpr double kMostGained = 0.01;
 
-// A pile settles when its bodies are slower than this part of a margin in a frame. Then it is swept until this residual is reached,
-// or so many rows were looked at.
+// A pile settles when its bodies are slower than this part of a margin in a frame. Then it is swept until this residual is reached.
 constexpr double kSettles = 1.0 / 4, kSettled = 2e-4;
-constexpr int kMostVisits = 150'000;
 
 // Pairs of nodes that are looked at in one proof.
 constexpr std::int64_t kMostNodePairs = 50'000;
@@ -129,7 +127,7 @@ Planned PilePlanner::make(const world::World& world, std::span<const Member> mem
   rows_.start(world);
   swept_ = gauss_seidel_->run(sweeps(options_.sweeps));
   if (are_slow(members, kSettles * contacts_.margin() / options_.frame))
-    while (swept_ * rows() < kMostVisits && gauss_seidel_->residual() > kSettled)
+    while (swept_ * rows() < options_.settling_visits && gauss_seidel_->residual() > kSettled)
       swept_ += gauss_seidel_->run(options_.sweeps);
   find_paths(world);
   shares_.assign(courses_.members.size(), 1);

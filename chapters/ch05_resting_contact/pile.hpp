@@ -12,10 +12,11 @@ struct PileOptions {
   double frame =
       0;  // s: what comes in faster than a margin in that time gives back what its restitution says
   int sweeps = 16;
-  int rounds = 3;           // in which pairs whose paths are not clear are looked at again,
-  int path_sweeps = 8;      // with so many sweeps in each
-  int visits = 4000;        // of rows, in all sweeps together: more sweeps, if they would be fewer
-  bool report_rows = true;  // whether rows are wanted
+  int rounds = 3;                 // in which pairs whose paths are not clear are looked at again,
+  int path_sweeps = 8;            // with so many sweeps in each
+  int visits = 4000;              // of rows, in all sweeps together: more sweeps, if they would be fewer
+  int settling_visits = 150'000;  // of rows at most, if it nearly stands and the residual is not small
+  bool report_rows = true;        // whether rows are wanted
 };
 
 // Plans for piles. There are no events in one: whatever arrives within the plan's time does so at its end, and gives back at

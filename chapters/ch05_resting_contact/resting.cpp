@@ -275,6 +275,7 @@ void Resting::go_on(Instant& instant, PileList::Pile& pile) {
   options.frame = dt_;
   options.sweeps = options_.sweeps;
   options.visits = options_.visits;
+  options.settling_visits = options_.settling_visits;
   options.report_rows = static_cast<bool>(instant.listeners.impact);
   Planned planned;
   double length = pile.length > kNearlyAll * left ? left : pile.length;

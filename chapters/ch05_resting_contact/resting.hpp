@@ -35,10 +35,11 @@ struct RestReport {
 };
 
 struct RestOptions {
-  double most_work = 2e5;   // see ContactLaw::event_work(): more makes a pile
-  int most_meetings = 256;  // and so does a body that meets others more often in one frame
-  int sweeps = 16;          // of a pile's rows,
-  int visits = 4000;        // and so many of single rows in any case
+  double most_work = 2e5;         // see ContactLaw::event_work(): more makes a pile
+  int most_meetings = 256;        // and so does a body that meets others more often in one frame
+  int sweeps = 16;                // of a pile's rows,
+  int visits = 4000;              // and so many of single rows in any case;
+  int settling_visits = 150'000;  // up to so many if it nearly stands, until its residual is small
   IslandOptions solver = {};
 };
 

@@ -30,7 +30,7 @@ void study_forces(const StudyOptions& options) {
     RestOptions rest;
     rest.most_work = 0;  // a pile
     rest.sweeps = sweeps;
-    rest.visits = 0;
+    rest.visits = rest.settling_visits = 0;
     row("gauss-seidel", sweeps, rest);
   }
   table.close();
@@ -52,7 +52,7 @@ void study_heap(const StudyOptions& options) {
     Setting setting{.scene = heap_scene(3, 4), .seconds = 3};
     setting.rest.most_work = sweeps == 0 ? std::numeric_limits<double>::infinity() : 0;
     setting.rest.sweeps = sweeps;
-    setting.rest.visits = 0;
+    setting.rest.visits = setting.rest.settling_visits = 0;
     const Run r = run(setting, 1);
     table.row({std::int64_t{sweeps}, r.mean_residual, r.worst_residual, r.corrected, r.shortened,
                r.lost_impulse, r.rows, r.queries, r.sweeps, r.second_ns(setting.seconds)});
