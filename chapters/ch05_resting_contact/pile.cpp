@@ -15,7 +15,7 @@ constexpr double kPathFloor = 1.0 / 64;
 constexpr double kMostGained = 0.01;
 
 // A pile settles when its bodies are slower than this part of a margin in a frame. Then it is swept until this residual is reached.
-constexpr double kSettles = 1.0 / 4, kSettled = 2e-4;
+constexpr double kSettles = 1.0 / 4, kSettled = 1e-4;
 
 // Pairs of nodes that are looked at in one proof.
 constexpr std::int64_t kMostNodePairs = 50'000;
