@@ -16,7 +16,7 @@ namespace fc::resting {
 //
 // It does not see J and M. With M^-1 = L L' (L lower triangular for the turning part) and D the diagonal of J M^-1 J', it works
 // on the lines of G = D^-1/2 J L, and on what D^1/2 z does to L^-1 v. So a line gives both how fast its contact closes in and
-// how an impulse moves its bodies, it is of length one, and fits a cache line in single precision. What is reported is worked out
+// how an impulse moves its bodies, it is of length one, and takes 64 bytes in single precision. What is reported is worked out
 // in double.
 class GaussSeidel {
  public:
@@ -116,7 +116,7 @@ class GaussSeidel {
   };
   void arrange();
 
-  int arranged_ = 0;  // so many rows have their place
+  int arranged_ = 0;  // rows with a number below this have their place
   std::vector<PairRows> pairs_;
   std::vector<Row> added_;
 };

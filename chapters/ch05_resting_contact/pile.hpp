@@ -13,7 +13,7 @@ struct PileOptions {
       0;  // s: what comes in faster than a margin in that time gives back what its restitution says
   int sweeps = 16;
   int rounds = 3;                 // in which pairs whose paths are not clear are looked at again,
-  int path_sweeps = 8;            // with so many sweeps in each
+  int path_sweeps = 8;            // sweeps in each of these rounds
   int visits = 4000;              // of rows, in all sweeps together: more sweeps, if they would be fewer
   int settling_visits = 150'000;  // of rows at most, if it nearly stands and the residual is not small
   bool report_rows = true;        // whether rows are wanted
@@ -38,7 +38,7 @@ class PilePlanner {
   Planned make(const world::World& world, std::span<const Member> members, double now, double length,
                const PileOptions& options);
 
-  // Of the last make():
+  // What the last make() did:
   double lost_impulse() const { return lost_; }  // N s, that shortening took
   int shortened() const { return shortened_; }   // bodies
   bool gains() const { return gains_; }  // whether it adds more energy than is small beside what there is

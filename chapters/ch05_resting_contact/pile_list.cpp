@@ -12,7 +12,7 @@ constexpr double kStands = 1e-3;
 // How long an island is a pile after it has spent its budget, at first and at most.
 constexpr int kLeastFrames = 8, kMostFrames = 256;
 
-// For so many frames no path was shortened in a pile that is calm.
+// A pile is calm if more frames than this have passed since one of its paths was shortened.
 constexpr int kCalm = 2;
 
 }  // namespace

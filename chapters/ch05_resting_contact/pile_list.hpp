@@ -32,7 +32,7 @@ class PileList {
   }
   // One pile of these bodies, and of all that are in a pile with one of them.
   void unite(std::span<const int> bodies);
-  // Those of the last frame with at least so many bodies.
+  // The last frame's piles of at least this size.
   std::vector<std::vector<int>> large(std::size_t bodies) const;
   // Whether no path of its bodies was shortened for some frames.
   bool is_calm(const Pile& pile) const;

@@ -9,7 +9,7 @@
 
 namespace fc::resting {
 
-// Of a member of a plan, at its end: after free flight.
+// The velocities with which free flight would end a member's plan.
 Twist free_velocities(const Courses& courses, std::size_t member);
 
 // Whether the members have less kinetic energy than if all went at this speed (m/s).

@@ -24,7 +24,7 @@ constexpr double kSlow = 4;
 // A pile's plan for the whole frame may shorten the paths of this part of its bodies.
 constexpr double kFew = 1.0 / 64;
 
-// A pile of so many bodies stays one until a frame whose number can be divided by this.
+// A pile of this size is kept without a search. Each time this number of frames has passed, all piles are searched anew.
 constexpr std::size_t kLarge = 100;
 constexpr int kLookAgain = 8;
 
@@ -258,8 +258,8 @@ bool Resting::plan(Instant& instant, const Island& island) {
   return true;
 }
 
-// A pile has no impacts of its own, only plans: one in a frame while it is calm and slow, else two; and more, if it is so small that shorter
-// plans cost less than paths that are shortened.
+// A pile has no impacts of its own, only plans: one in a frame while it is calm and slow, else two; and more, if it is so small
+// that shorter plans cost less than paths that are shortened.
 void Resting::go_on(Instant& instant, PileList::Pile& pile) {
   pile.done = true;
   std::vector<Member> members;
