@@ -1,4 +1,5 @@
 // Chapter 3: solves the impact of bodies that touch, or an LCP given directly.
+#include "ch03_impulse_lcp/clear/solver.hpp"
 #include "ch03_impulse_lcp/impact_run.hpp"
 #include "ch03_impulse_lcp/lcp_run.hpp"
 #include "ch03_impulse_lcp/solver.hpp"
@@ -46,8 +47,8 @@ void check(const Scene& scene) {
   }
 }
 
-int run(const Scene& scene, const RunContext& context, Summary& summary) {
-  const Solver solve = solver_of(scene.solver);
+int run(const Scene& scene, const clear::Pieces& pieces, const RunContext& context, Summary& summary) {
+  const Solver solve = context.clear ? clear::solver_of(scene.solver, pieces) : solver_of(scene.solver);
   return scene.lcp ? run_lcp(*scene.lcp, scene.solver, solve, context, summary)
                    : run_impact(scene, solve, context, summary);
 }
@@ -55,6 +56,7 @@ int run(const Scene& scene, const RunContext& context, Summary& summary) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  clear::Pieces pieces;  // filled before run() if the options ask for it
   return run_program(
       argc, argv,
       {.number = 3,
@@ -66,6 +68,8 @@ int main(int argc, char** argv) {
            "b.mtx.",
        .example = "build/bin/ch03_impulse_lcp chapters/ch03_impulse_lcp/scenes/newtons_cradle.yaml",
        .explain = explain,
-       .run = run,
-       .check = check});
+       .run = [&pieces](const Scene& scene, const RunContext& context,
+                        Summary& summary) { return run(scene, pieces, context, summary); },
+       .check = check,
+       .pieces = clear::slots(pieces)});
 }

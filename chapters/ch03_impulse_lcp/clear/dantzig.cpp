@@ -10,6 +10,8 @@ namespace {
 
 // A sum below this part of the sizes of its terms is round-off, and counts as 0.
 constexpr double kZero = 1e-11;
+// Below this Schur complement (the diagonal of A is 1) a row depends on the basis.
+constexpr double kRank = 1e-13;
 // Two steps that differ by less than this part of themselves are a tie.
 constexpr double kTie = 1e-9;
 
@@ -42,14 +44,18 @@ LcpResult dantzig(const MatX& A_given, const VecX& b_given, int limit) {
     result.status = status;
     return result;
   };
-  const auto approaches = [&](int i) { return w[i] < -kZero * (sizes.row(i).dot(z) + b.lpNorm<Eigen::Infinity>()); };
+  const auto raise = [&](int i) { return VecX(VecX::Unit(n, i) - solve_basis(A, basis, A.col(i))); };
+  const auto independent = [&](int i) { return A.row(i).dot(raise(i)) > kRank; };
+  const auto approaches = [&](int i) {
+    return w[i] < -kZero * (sizes.row(i).dot(z) + b.lpNorm<Eigen::Infinity>());
+  };
 
   // Take the rows in turn, and again those that round-off has moved.
   for (int d = 0, done = 0; done < n; d = (d + 1) % n, ++done) {
     while (!in[d] && approaches(d)) {
       done = 0;
       // Raise z_d by 1, and let the basis answer so that its w stay 0.
-      const VecX dz = VecX::Unit(n, d) - solve_basis(A, basis, A.col(d));
+      const VecX dz = raise(d);
       const VecX dw = A * dz, dw_size = sizes * dz.cwiseAbs();
 
       // Which row stops the drive first? On a tie d, or else the one that comes to its stop fastest.
@@ -64,8 +70,9 @@ LcpResult dantzig(const MatX& A_given, const VecX& b_given, int limit) {
       for (int i = 0; i < n; ++i) {
         if (i == d) continue;
         if (in[i] && dz[i] < -kZero * dz.lpNorm<Eigen::Infinity>()) offer(i, z[i] / -dz[i], -dz[i]);
-        // A row whose turn is still to come has w < 0, and stops nothing.
-        if (!in[i] && w[i] >= 0 && dw[i] < -kZero * dw_size[i]) offer(i, w[i] / -dw[i], -dw[i]);
+        // A row that approaches waits for its turn, and stops nothing.
+        if (!in[i] && !approaches(i) && dw[i] < -kZero * dw_size[i] && independent(i))
+          offer(i, std::max(w[i], 0.0) / -dw[i], -dw[i]);
       }
 
       // Nothing does: then dz is the certificate, if it is not round-off.
@@ -73,12 +80,15 @@ LcpResult dantzig(const MatX& A_given, const VecX& b_given, int limit) {
         result.certificate = no_solution_certificate({A_given, b_given}, unit.cwiseProduct(dz));
         return finish(result.certificate.size() > 0 ? Status::no_solution : Status::limit);
       }
-      if (result.pivots++ == limit) return finish(Status::limit);
+      if (result.pivots == limit) return finish(Status::limit);
+      ++result.pivots;
 
       // Go there, and exchange the row.
       z += step * dz;
-      if (in[stop]) z[stop] = 0, std::erase(basis, stop);
-      else basis.push_back(stop);
+      if (in[stop])
+        z[stop] = 0, std::erase(basis, stop);
+      else
+        basis.push_back(stop);
       in[stop] = !in[stop];
       w = A * z + b;
     }
