@@ -198,6 +198,7 @@ class CheckTest(unittest.TestCase):
         self.assertEqual(code, 0)
         self.assertIn("ex01_double              done\n", out)
         self.assertIn("compare with solutions/ch07/ex01_double.cpp", out)
+        self.assertEqual((self.build / "bin/this_exercise").resolve(), (self.build / "bin/ch07_ex01_exercise").resolve())
         self.assertIn("see what it does: ./run see ch07/ex01\n", out)
         self.assertIn("next, ch07/ex02: write exercises/ch07/ex02_half.cpp; the task is 7.2 in exercises/ch07/README.md\n", out)
         code, out = self.check()  # the other one is not
