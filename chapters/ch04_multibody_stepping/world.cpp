@@ -204,7 +204,7 @@ void World::set_motion(int body, const RigidBody& state, double time) {
   b.group_velocity = Vec3::Zero();
   if (!effects.gyroscopic || !is_dynamic(body) || state.free_turns != Vec3::Ones()) return;
   ca::Motion motion(state);
-  motion.turn_freely(principal[b.shape]);
+  turn_freely(motion, principal[b.shape]);
   b.free = motion.free;
   b.free_start = 0;
   b.free_rate = 1;
@@ -219,7 +219,7 @@ void World::advance_to(int body, double time, double relabel) {
   b.group_velocity = group_velocity;
   if (b.free && b.plan.number >= 0) {  // from here on it turns freely again
     ca::Motion motion(b.state);
-    motion.turn_freely(principal[b.shape]);
+    turn_freely(motion, principal[b.shape]);
     b.free = motion.free;
     b.free_start = 0;
     b.free_rate = 1;

@@ -13,6 +13,7 @@
 #include "ch04_multibody_stepping/effects.hpp"
 #include "ch04_multibody_stepping/paths.hpp"
 #include "ch04_multibody_stepping/schedule.hpp"
+#include "ch04_multibody_stepping/torque_free.hpp"
 #include "common/pair_rules.hpp"
 #include "common/scene.hpp"
 #include "common/shape.hpp"
@@ -51,7 +52,7 @@ struct Body {
   double clock = 0;
   double still = 0;  // s, how long it has lain without a break
   // With a gyroscopic effect: its rotation since the last impact, and where on it the body is at `time`.
-  std::shared_ptr<const ca::TorqueFree> free;
+  std::shared_ptr<const ca::VaryingSpin> free;
   double free_start = 0, free_rate = 1;
 };
 
@@ -69,11 +70,11 @@ RigidBody as_it_moves(const Body& body, RigidBody state);
 
 struct World {
   std::vector<Shape> shapes;
-  std::vector<hulls::Model> models;  // one for each shape
-  PairRules pair_rules;              // what the scene says of two shapes
-  std::vector<double> ball_radius;   // m, of each shape that is a ball; else 0
-  std::vector<Vec3> half_extents;    // m, of each shape along its own axes, from its centre of mass
-  std::vector<ca::PrincipalInertia> principal;  // of each shape; empty without a gyroscopic effect
+  std::vector<hulls::Model> models;         // one for each shape
+  PairRules pair_rules;                     // what the scene says of two shapes
+  std::vector<double> ball_radius;          // m, of each shape that is a ball; else 0
+  std::vector<Vec3> half_extents;           // m, of each shape along its own axes, from its centre of mass
+  std::vector<PrincipalInertia> principal;  // of each shape; empty without a gyroscopic effect
   std::vector<Body> bodies;
   mutable hulls::SearchMemory memory;  // of the search for a pair's next contact: nothing of it is a state
   Schedule schedule;                   // of the frame that is being stepped

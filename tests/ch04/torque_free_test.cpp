@@ -1,11 +1,11 @@
 // Free rotation against an integrator of 33 digits, closed forms, and its own laws.
-#include "ch01_convex_advancement/torque_free.hpp"
+#include "ch04_multibody_stepping/torque_free.hpp"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "ch01_convex_advancement/elliptic.hpp"
+#include "ch04_multibody_stepping/elliptic.hpp"
 #include "tests/support/euler_integrator.hpp"
 #include "tests/support/free_bodies.hpp"
 #include "tests/support/random_engine.hpp"
@@ -14,7 +14,7 @@ namespace {
 
 using namespace fc;
 using namespace fc::test;
-using ca::TorqueFree;
+using world::TorqueFree;
 
 #ifdef __SIZEOF_FLOAT128__
 __extension__ using Real = __float128;
@@ -155,7 +155,7 @@ RC_GTEST_PROP(TorqueFree, ConservesEnergyAndMomentum, ()) {
   const Mat3 axes = rotation(random).toRotationMatrix();  // a full tensor this time
   const Mat3 inertia = axes * body.inertia() * axes.transpose();
   const Mat3 tensor = (inertia + inertia.transpose()) / 2;
-  RC_PRE(ca::PrincipalInertia(tensor).moments[0] > 1e-6 * body.moments[2]);
+  RC_PRE(world::PrincipalInertia(tensor).moments[0] > 1e-6 * body.moments[2]);
   const TorqueFree free(tensor, body.rotation, body.spin);
   const auto momentum = [&](double t) {
     const Mat3 r = free.rotation_at(t);

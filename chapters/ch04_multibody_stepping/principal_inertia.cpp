@@ -1,4 +1,4 @@
-#include "ch01_convex_advancement/principal_inertia.hpp"
+#include "ch04_multibody_stepping/principal_inertia.hpp"
 
 #include <fmt/core.h>
 
@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace fc::ca {
+namespace fc::world {
 
 namespace {
 
@@ -37,4 +37,4 @@ PrincipalInertia::PrincipalInertia(const Mat3& inertia) {
     throw std::invalid_argument(values() + "those of no mass: the largest exceeds the sum of the others");
 }
 
-}  // namespace fc::ca
+}  // namespace fc::world

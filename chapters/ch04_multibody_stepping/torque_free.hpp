@@ -1,11 +1,12 @@
 // The rotation of a rigid body on which no torque acts: exact at any time, and bounded for all time.
 #pragma once
 
-#include "ch01_convex_advancement/principal_inertia.hpp"
-#include "ch01_convex_advancement/theta_series.hpp"
+#include "ch01_convex_advancement/motion.hpp"
+#include "ch04_multibody_stepping/principal_inertia.hpp"
+#include "ch04_multibody_stepping/theta_series.hpp"
 #include "common/types.hpp"
 
-namespace fc::ca {
+namespace fc::world {
 
 // Without torque the angular momentum L and the kinetic energy E stay as they are, but the spin w does not:
 // it wanders around L (Euler's equations). In body axes, L follows the curve in which the sphere |L| = const
@@ -18,7 +19,7 @@ namespace fc::ca {
 // (relative) of the given one, which only matters for a body that turns almost about its middle axis: there
 // any difference grows. For that reason a spin that leans from a principal axis by less than 8 eps, and whose
 // angular momentum does too, is taken to be along it.
-class TorqueFree {
+class TorqueFree : public ca::VaryingSpin {
  public:
   // `rotation` turns body axes into world axes at t = 0; `spin` is that at t = 0 in world axes, rad/s. Throws
   // std::invalid_argument if one is not finite, or `rotation` not orthonormal to 1e-9.
@@ -27,33 +28,33 @@ class TorqueFree {
       : TorqueFree(PrincipalInertia(inertia), rotation, spin) {}
 
   // At any time t (s), also before 0. Nothing is allocated, and nothing depends on earlier calls.
-  Mat3 rotation_at(double t) const;  // body axes to world axes
-  Vec3 spin_at(double t) const;      // rad/s, world axes
+  Mat3 rotation_at(double t) const override;  // body axes to world axes
+  Vec3 spin_at(double t) const override;      // rad/s, world axes
 
   // Bounds for all time, before and after 0, each rounded up by 32 eps of the largest |w| (or |dw/dt|).
   //
   // |w|, in rad/s. Each of the three products (I_i - I1)(I3 - I_i) is >= 0. Their sum with weights w_i^2 is
   // 2E (I1 + I3) - L^2 - I1 I3 |w|^2, so
   //   |w|^2 <= (2E (I1 + I3) - L^2) / (I1 I3),   with equality when w_2 = 0: twice in every period.
-  double spin_bound() const { return spin_bound_; }
+  double spin_bound() const override { return spin_bound_; }
 
   // |n x w|, in rad/s, for a unit vector n that stands still in the world. As L.w = 2E, the part of w along L
   // has the constant size 2E/|L|, and the rest is at most sqrt(|w|max^2 - 4E^2/L^2): w stays in a cone about
   // L. With l = L/|L|, the angle between n and w is at most the sum of that between n and l and the cone's:
   //   |n x w| <= (2E/|L|) |n x l| + sqrt(|w|max^2 - 4E^2/L^2) |n.l|   if the sum is at most a right angle
   // (|w|max times its sine), and |w|max if not.
-  double turning_bound(const Vec3& n) const {
+  double turning_bound(const Vec3& n) const override {
     const double sine = momentum_axis().cross(n).norm(), cosine = std::abs(momentum_axis().dot(n));
     const bool acute = cosine * along_ >= sine * across_;
     return (acute ? sine * along_ + cosine * across_ + margin_ : spin_bound_);
   }
 
   // |w - (w.L) L/L^2|, in rad/s: the most of the spin that is across L, the cone's radius.
-  double across_bound() const { return constant_ ? 0 : across_ + margin_; }
+  double across_bound() const override { return constant_ ? 0 : across_ + margin_; }
 
   // |dw/dt|, in rad/s^2, is at most (|L|/I2) sqrt(|w|max^2 - 4E^2/L^2), with equality when w_2 = 0 (the
   // source has the proof; it needs that I3 <= I1 + I2).
-  double spin_change_bound() const { return spin_change_bound_; }
+  double spin_change_bound() const override { return spin_change_bound_; }
 
   // The direction of L in the world, which stays (of the spin, if it is constant; the x axis, if it is zero).
   Vec3 momentum_axis() const { return world_.col(0); }
@@ -86,4 +87,8 @@ class TorqueFree {
   Vec3 size_ = Vec3::Zero();                 // the largest components of L's direction
 };
 
-}  // namespace fc::ca
+// From the motion's start on no torque acts: the spin follows Euler's equations. Of a body that this does not change (a ball,
+// or one that spins about a principal axis) nothing is changed.
+void turn_freely(ca::Motion& motion, const PrincipalInertia& inertia);
+
+}  // namespace fc::world

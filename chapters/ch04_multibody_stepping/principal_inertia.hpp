@@ -3,7 +3,7 @@
 
 #include "common/types.hpp"
 
-namespace fc::ca {
+namespace fc::world {
 
 // Found once per body: free rotation is simple in these axes.
 struct PrincipalInertia {
@@ -16,4 +16,4 @@ struct PrincipalInertia {
   explicit PrincipalInertia(const Mat3& inertia);
 };
 
-}  // namespace fc::ca
+}  // namespace fc::world

@@ -1,9 +1,9 @@
-#include "ch01_convex_advancement/theta_series.hpp"
+#include "ch04_multibody_stepping/theta_series.hpp"
 
 #include <cmath>
 #include <numbers>
 
-namespace fc::ca {
+namespace fc::world {
 
 ThetaSeries::ThetaSeries(long double m, long double K, long double b, long double rest)
     : trigonometric_(m <= 0.5L), half_period_(static_cast<double>(2 * K)) {
@@ -101,4 +101,4 @@ ThetaSeries::Values ThetaSeries::at(double u) const {
   return {parity * sn_ * theta1, parity * cn_ * over, dn_ * theta3, slip_ * u, real, imaginary};
 }
 
-}  // namespace fc::ca
+}  // namespace fc::world

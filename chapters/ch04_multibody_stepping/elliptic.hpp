@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-namespace fc::ca {
+namespace fc::world {
 
 // Carlson's symmetric integral of the first kind,
 //   R_F(x, y, z) = 1/2 * integral from 0 to infinity of dt / sqrt((t + x)(t + y)(t + z)),
@@ -54,4 +54,4 @@ inline long double complete_integral(long double k, long double p, long double a
   return std::numbers::pi_v<long double> / 2 * (b + a * mean) / (mean * (mean + p));
 }
 
-}  // namespace fc::ca
+}  // namespace fc::world

@@ -3,7 +3,7 @@
 
 #include <array>
 
-namespace fc::ca {
+namespace fc::world {
 
 // sn, cn and dn of u with parameter m, and the phase of Theta(u + i b | m) for a fixed b: what the motion of
 // a free body consists of. K is the quarter period, K' that of 1 - m, and 0 < b < K'.
@@ -38,4 +38,4 @@ class ThetaSeries {
   std::array<double, 4> turn_cosine_{}, turn_sine_{};  // and of Theta(u + i b)
 };
 
-}  // namespace fc::ca
+}  // namespace fc::world

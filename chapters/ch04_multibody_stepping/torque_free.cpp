@@ -10,7 +10,7 @@
 //   |L| (a_m L_m^2 + a_o L_o^2)/(L_m^2 + L_o^2),
 // whose integral is its mean value times t, less or plus the phase of Jacobi's Theta(u + i b | m), where
 //   b = F(atan sqrt(P/Q) | 1-m),   K' - b = F(atan sqrt(A/B) | 1-m).
-#include "ch01_convex_advancement/torque_free.hpp"
+#include "ch04_multibody_stepping/torque_free.hpp"
 
 #include <fmt/core.h>
 
@@ -22,9 +22,9 @@
 #include <tuple>
 #include <utility>
 
-#include "ch01_convex_advancement/elliptic.hpp"
+#include "ch04_multibody_stepping/elliptic.hpp"
 
-namespace fc::ca {
+namespace fc::world {
 
 namespace {
 
@@ -223,4 +223,11 @@ Vec3 TorqueFree::spin_at(double t) const {
   return world_frame(state) * rates_.cwiseProduct(state.l);
 }
 
-}  // namespace fc::ca
+void turn_freely(ca::Motion& motion, const PrincipalInertia& inertia) {
+  const TorqueFree turning(inertia, motion.rotation, motion.spin);
+  motion.free = turning.constant_spin() ? nullptr : std::make_shared<TorqueFree>(turning);
+  motion.free_start = 0;
+  motion.free_rate = 1;
+}
+
+}  // namespace fc::world
