@@ -37,7 +37,8 @@ AdvanceResult advance(const Convex& a, const Motion& motion_a, const Convex& b, 
 
     // How long does the gap last, above the target?
     const double remaining = options.interval - t;
-    const double speed = pieces.speed_bound(g.normal, mover(a, motion_a, t), mover(b, motion_b, t), remaining);
+    const double speed =
+        pieces.speed_bound(g.normal, mover(a, motion_a, t), mover(b, motion_b, t), remaining);
     const double room = g.lower - target;
     const bool clear = speed * remaining <= room;  // to the end; so it is for speed <= 0
     const double step = clear ? remaining : room / speed;

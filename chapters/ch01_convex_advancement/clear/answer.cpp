@@ -41,8 +41,8 @@ void report(AdvanceResult& result, double t, const Gap& gap, double tolerance) {
   result.gap_upper = gap.upper;
 }
 
-Status status_at_start(const Convex& a, const Convex& b, const PairPose& pose, const Gap& gap, double tolerance,
-                       AdvanceResult& result) {
+Status status_at_start(const Convex& a, const Convex& b, const PairPose& pose, const Gap& gap,
+                       double tolerance, AdvanceResult& result) {
   double lower = gap.lower;
   if (gap.corners == 0 || lower < -tolerance)
     lower = std::max(lower, touching_plane(a, b, pose, 16 * tolerance, gap.normal).lower);

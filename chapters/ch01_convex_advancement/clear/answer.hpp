@@ -16,8 +16,8 @@ void report(AdvanceResult& result, double t, const Gap& gap, double tolerance);
 
 // Of bodies that are within the tolerance at t = 0: do they touch, or overlap by more than the tolerance? If GJK found no
 // plane that tells, touching_plane() looks for one. The bound that it finds goes into result.gap_lower.
-Status status_at_start(const Convex& a, const Convex& b, const PairPose& pose, const Gap& gap, double tolerance,
-                       AdvanceResult& result);
+Status status_at_start(const Convex& a, const Convex& b, const PairPose& pose, const Gap& gap,
+                       double tolerance, AdvanceResult& result);
 
 // The pair of features that the witness points lie on. centre_a: A's centre of mass, m, world.
 FeaturePair witness(const Gap& gap, const Vec3& centre_a);
