@@ -112,7 +112,7 @@ def first_slab(runs: Path) -> plt.Figure:
     arrow(axes, centre + [0.62, 0.42], centre + [0.05, 0.42], ORANGE)
     note(axes, centre + [0.34, 0.53], "1.5 m/s, and it spins", ORANGE)
     note(axes, cube.mean(axis=0), "A", DARK, fontsize=13)
-    note(axes, centre, "B", DARK, fontsize=13)
+    note(axes, centre, "B", DARK, fontsize=13, zorder=6)
     note(axes, cube.mean(axis=0) + [0, -0.78], "cube, at rest", DARK)
     note(axes, centre + [0.1, -0.78], "brick, at t = 0", ORANGE)
     note(axes, (low + 0.06, 0.84), f"first contact: t = {flight.contact:.3f} s", RED, ha="left")
@@ -136,10 +136,10 @@ def staircase(runs: Path) -> plt.Figure:
     axes.plot(flight.contact, truth(flight.contact), "s", color=RED, ms=6.5, zorder=6)
     point = {"arrowstyle": "-", "color": GREY, "lw": 0.8}
     axes.annotate("the true distance", (0.62, truth(0.62)), (0.72, 1.45), color=DARK, arrowprops=point)
-    axes.annotate("a look: here the gap is at least g", (rows["t"][0], rows["gap_lower"][0]), (0.07, 1.98), color=BLUE, va="center")
-    axes.annotate("after h seconds it is at least g − μh", (0.2, rows["gap_lower"][0] - 0.2 * (rows["gap_lower"][0] - 0.05) / rows["advance"][0]), (0.03, 0.62), color=BLUE,
-                  arrowprops=point)
-    axes.annotate("g is all used up,\nbut for τ/2: look again", (rows["t"][1], 0.05), (0.56, 0.3), color=BLUE, va="center", arrowprops=point)
+    axes.annotate("a look: the gap is at least g", (rows["t"][0], rows["gap_lower"][0]), (0.08, 2.03), color=BLUE, va="center", arrowprops=point)
+    axes.annotate("after h seconds\nit is at least g − μh", (0.24, rows["gap_lower"][0] - 0.24 * (rows["gap_lower"][0] - 0.05) / rows["advance"][0]), (0.02, 0.42),
+                  color=BLUE, arrowprops=point)
+    axes.annotate("used up, but for\nτ/2: look again", (rows["t"][1], 0.05), (0.51, 0.38), color=BLUE, va="center", arrowprops=point)
     axes.annotate("within τ:\ncontact", (flight.contact, truth(flight.contact)), (1.40, 0.42), color=RED, va="center", ha="center", arrowprops=point)
     right = flight.contact + 0.14
     note(axes, (right, tolerance), "τ = 0.1 m", GREY, ha="right", va="bottom")
@@ -168,12 +168,12 @@ def where_to_stop(runs: Path) -> plt.Figure:
         axes.plot(look + step, tolerance / 2, "o", color=BLUE, mfc="white", ms=6, zorder=5)
     axes.plot(flight.contact, truth(flight.contact), "s", color=RED, ms=7, zorder=6)
     point = {"arrowstyle": "-", "color": GREY, "lw": 0.8}
-    axes.annotate("aimed at", (rows["t"][-1], tolerance / 2), (rows["t"][-1] - 0.012, 0.018), color=BLUE, ha="right", arrowprops=point)
+    axes.annotate("aimed at", (rows["t"][-1], tolerance / 2), (rows["t"][-1] + 0.006, 0.016), color=BLUE, ha="left", arrowprops=point)
     axes.annotate("found", (rows["t"][-1], rows["gap_lower"][-1]), (rows["t"][-1] + 0.008, 0.33), color=BLUE, arrowprops=point)
     axes.annotate("within τ: contact, and\nthere is still a plane", (flight.contact, truth(flight.contact)), (flight.contact + 0.008, 0.16), color=RED, arrowprops=point)
     left, right = start - 0.01, flight.contact + 0.06
     for y, text, colour in ((tolerance, "τ: near enough", GREY), (tolerance / 2, "τ/2: where each step aims", GREEN), (0, "0: no plane, no direction", DARK)):
-        note(axes, (right - 0.001, y + 0.006), text, colour, ha="right", va="bottom")
+        note(axes, (left + 0.001, y + 0.006), text, colour, ha="left", va="bottom")
     axes.set(xlim=(left, right), ylim=(-0.012, 0.43), xlabel="t [s]", ylabel="gap [m]")
     axes.grid(False)
     return figure
@@ -193,8 +193,8 @@ def certificate(runs: Path) -> plt.Figure:
     left.plot([0, step], [g, g - mu * step], color=BLUE, lw=1.8)
     left.plot(0, g, "o", color=BLUE, ms=6, zorder=5, clip_on=False)
     left.fill_between(h[inside], g - mu * h[inside], gap[inside], color=SLAB, lw=0)
-    note(left, (0.55 * step, 0.475), "the gap along the row's n", DARK)
-    note(left, (0.36 * step, 0.2), "the row's line, g − μh", BLUE, ha="right")
+    note(left, (0.62 * step, 0.535), "the gap along the row's n", DARK)
+    note(left, (0.3 * step, 0.14), "the row's line, g − μh", BLUE)
     note(left, (1.25 * step, 0.48), "not\nclaimed", GREY)
     left.axhline(0, color=DARK, lw=1)
     left.set(title=f"1  A row is true if its line lies below (row {row})", xlabel="h, since the row's t [s]", ylabel="gap along n [m]", xlim=(0, h[-1]), ylim=(-0.02, 0.65))
@@ -235,7 +235,7 @@ def slab(runs: Path) -> plt.Figure:
             ends = np.array([[closest["ax"][0], closest["ay"][0]], [closest["bx"][0], closest["by"][0]]])
             axes.plot(*ends.T, "o-", color=RED, lw=1.4, ms=5.5, zorder=6)
             note(axes, ends[0] + [-0.13, -0.12], "a", RED, style="italic")
-            note(axes, ends[1] + [0.14, 0.02], "b", RED, style="italic")
+            note(axes, ends[1] + [0.02, 0.2], "b", RED, style="italic")
         along = np.array([-n[1], n[0]])
         foot = (0.8, 0.2) @ along * along - 1.25 * along
         length(axes, foot + (n @ ahead) * n, foot + (n @ behind) * n, f"g(n) = {planes['gap'][i]:.2f} m", foot + (n @ behind) * n + [0.75, 0.02], BLUE)
@@ -279,20 +279,20 @@ def difference(runs: Path) -> plt.Figure:
     body(right, hull(points), "#EAF3EC", GREEN)
     right.plot(*points.T, ".", color=GREEN, ms=5)
     arrow(right, (0, 0), b[2] - a[2], GREEN)
-    note(right, b[2] - a[2] + [-0.2, 0.17], "b − a", GREEN, style="italic", ha="right")
+    note(right, 0.72 * (b[2] - a[2]) + [0.12, -0.14], "b − a", GREEN, style="italic", ha="left")
     right.plot(0, 0, "+", color=DARK, ms=11, mew=1.6)
     note(right, (-0.1, -0.17), "0", DARK)
     arrow(right, (0, 0), last, RED)
-    note(right, 0.5 * last + [0.2, -0.14], f"d = {np.linalg.norm(last):.2f} m", RED, ha="left")
-    note(right, (1.9, 0.75), "B − A", GREEN, fontsize=12)
-    right.set(xlim=(-0.7, 4.1), ylim=(-0.75, 2.95))
+    note(right, 0.5 * last + [-0.12, 0.1], f"d = {np.linalg.norm(last):.2f} m", RED, ha="right")
+    note(right, (1.2, 1.85), "B − A", GREEN, fontsize=12)
+    right.set(xlim=(-1.1, 3.7), ylim=(-0.6, 2.9))
     return figure
 
 
 def gjk(runs: Path) -> plt.Figure:
     outline_of = hull(Table(runs / "gjk_difference.csv").vectors("x", "y"))
     steps, corners = Table(runs / "gjk_steps.csv"), Table(runs / "gjk_simplex.csv")
-    figure, panels = plt.subplots(1, 4, figsize=(9.2, 3.0))
+    figure, panels = plt.subplots(1, 4, figsize=(9.2, 2.75))
     before = np.empty((0, 2))
     best = -np.inf
     for k, axes in enumerate(panels):
@@ -317,9 +317,11 @@ def gjk(runs: Path) -> plt.Figure:
         axes.plot(*s, "s", mfc="white" if fresh else GREEN, mec=GREEN, ms=9 if not fresh else 7, mew=1.6, zorder=5)
         note(axes, s + np.array([-0.22, -0.24]), "s", GREEN, style="italic")
         axes.plot(0, 0, "+", color=DARK, ms=9, mew=1.5)
-        axes.set(xlim=(-0.55, 3.5), ylim=(-0.75, 2.8))
-        axes.set_clip_on(True)
+        axes.set(xlim=(-0.5, 3.4), ylim=(-0.95, 2.65))
         before = np.vstack([kept, s])
+    words = (("● the simplex", BLUE), ("× dropped", GREY), ("x: its point closest to 0 (+)", RED), ("□ s: the farthest point against x, and its line", GREEN))
+    for at, (text, colour) in zip((0.02, 0.17, 0.28, 0.56), words):
+        figure.text(at, 0.02, text, color=colour, fontsize=9)
     return figure
 
 
@@ -342,7 +344,8 @@ def corners(runs: Path) -> plt.Figure:
         for place, speed in zip(places, speeds["speed"][here]):
             if speed > 1e-9:
                 arrow(axes, place, place + [0.55 * speed, 0], RED)
-                note(axes, place + [0.28 * speed, 0.1 if place[1] > 0 else -0.1], f"{speed:.2f} m/s", RED, fontsize=8.5)
+                low = place[1] <= np.min(places[:, 1]) + 1e-9
+                note(axes, place + [0.28 * speed, -0.1 if low else 0.1], f"{speed:.2f} m/s", RED, fontsize=8.5)
         angles = np.linspace(0.4, 1.6, 40)
         axes.plot(0.14 * np.cos(angles * 2), 0.14 * np.sin(angles * 2), color=ORANGE, lw=1.2)
         arrow(axes, (0.14 * np.cos(3.15), 0.14 * np.sin(3.15)), (0.14 * np.cos(3.3), 0.14 * np.sin(3.3)), ORANGE, 1.2)
@@ -357,8 +360,8 @@ def corners(runs: Path) -> plt.Figure:
     right.axhline(bound["bound"][0], color=BLUE, lw=1.4)
     right.axhline(bound["now"][0], color=ORANGE, lw=1.4, ls="--")
     note(right, (times[-1], bound["bound"][0] + 0.09), "the bound, |n × ω| R", BLUE, ha="right")
-    note(right, (times[-1], bound["now"][0] - 0.11), "the fastest corner now", ORANGE, ha="right")
-    note(right, (0.93, 0.98), "the\nfastest", RED)
+    note(right, (0.79, bound["now"][0] - 0.1), "the fastest corner now", ORANGE)
+    note(right, (0.79, 0.82), "the fastest corner\nat each time", RED)
     right.set(title="3  each corner's speed along n", xlabel="t [s]", ylabel="[m/s]", xlim=(0, times[-1]), ylim=(-0.3, 1.55))
     right.grid(False)
     return figure
@@ -394,8 +397,7 @@ def turned(runs: Path) -> plt.Figure:
     arrow(left, start, start + 0.38 * direction, GREEN)
     note(left, start + 0.38 * direction + [0.02, -0.09], "n + h n × ω", GREEN, style="italic")
     note(left, (reach + 0.02, 0.68), "ahead now", BLUE, ha="left")
-    note(left, now[second] + [0.08, -0.12], "ahead later", GREEN, ha="left")
-    note(left, later[second] + [0.03, 0.06], "", GREY)
+    note(left, now[second] + [-0.08, -0.3], "ahead later", GREEN, ha="right")
     left.set(xlim=(-0.85, 1.05), ylim=(-0.95, 0.8))
     t, foretold, rest, true = (table[name] for name in ("h", "foretold", "rest", "true"))
     shown = t <= 0.32
