@@ -84,9 +84,9 @@ TEST(Ex06ClosestPoint, InATriangle) {
 }
 
 TEST(Ex06ClosestPoint, BesideATriangleTheNearestEdgeCounts) {
-  // The origin projects outside of two edges of this flat triangle. The point on one of them is nearer than that on the other:
-  // setting negative weights to 0 and dividing by the sum gives neither.
-  const Corners corners{{1, 4, 1}, {-4, -0.5, 1}, {0.2, -1, 1}};
+  // The origin projects to a place beyond two edges, and both far corners have negative weights. Setting these to 0 gives the
+  // third corner; but a point on an edge is nearer.
+  const Corners corners{{0.3, 1, 1}, {-4, 1.2, 1}, {2, 1.5, 1}};
   expect_closest(corners);
   const Corners beyond_two{{0.5, 3, 0}, {0.5, -3, 0}, {0.6, 0, 0}};
   const ClosestPoint p = closest_point(beyond_two);
