@@ -10,7 +10,6 @@ namespace {
 
 using fc::Vec3;
 using fc::mine::Mover;
-using fc::mine::speed_bound;
 
 Mover mover(const Vec3& velocity, const Vec3& spin = Vec3::Zero(), double reach = 1,
             const Vec3& acceleration = Vec3::Zero()) {
@@ -18,37 +17,42 @@ Mover mover(const Vec3& velocity, const Vec3& spin = Vec3::Zero(), double reach 
 }
 
 TEST(Ex08SpeedBound, StraightFlight) {
-  EXPECT_NEAR(speed_bound(Vec3::UnitX(), mover({2, 5, 0}), mover({-1, 0, 7}), 1), 3, 1e-14)
+  EXPECT_NEAR(fc::mine::speed_bound(Vec3::UnitX(), mover({2, 5, 0}), mover({-1, 0, 7}), 1), 3, 1e-14)
       << "m/s: A comes with 2 along n, B with 1 against it; what they do across n does not matter";
-  EXPECT_NEAR(speed_bound(Vec3::UnitX(), mover({-2, 0, 0}), mover({1, 0, 0}), 1), -3, 1e-14)
+  EXPECT_NEAR(fc::mine::speed_bound(Vec3::UnitX(), mover({-2, 0, 0}), mover({1, 0, 0}), 1), -3, 1e-14)
       << "m/s: they part with 3. A bound below 0 proves a miss, so do not cut it off at 0";
 }
 
 TEST(Ex08SpeedBound, ABodyThatSpins) {
-  EXPECT_NEAR(speed_bound(Vec3::UnitX(), mover({0, 0, 0}, {0, 0, 3}, 0.5), mover({0, 0, 0}), 1), 1.5, 1e-14)
+  EXPECT_NEAR(fc::mine::speed_bound(Vec3::UnitX(), mover({0, 0, 0}, {0, 0, 3}, 0.5), mover({0, 0, 0}), 1),
+              1.5, 1e-14)
       << "m/s: 3 rad/s across n, and a reach of 0.5 m";
-  EXPECT_NEAR(speed_bound(Vec3::UnitX(), mover({0, 0, 0}), mover({0, 0, 0}, {0, 4, 0}, 0.25), 1), 1, 1e-14)
+  EXPECT_NEAR(fc::mine::speed_bound(Vec3::UnitX(), mover({0, 0, 0}), mover({0, 0, 0}, {0, 4, 0}, 0.25), 1), 1,
+              1e-14)
       << "m/s: B's points can come towards A, too";
 }
 
 TEST(Ex08SpeedBound, SpinAboutTheNormalBringsNothingNearer) {
-  EXPECT_NEAR(speed_bound(Vec3::UnitX(), mover({1, 0, 0}, {1000, 0, 0}, 2), mover({0, 0, 0}), 1), 1, 1e-11)
+  EXPECT_NEAR(fc::mine::speed_bound(Vec3::UnitX(), mover({1, 0, 0}, {1000, 0, 0}, 2), mover({0, 0, 0}), 1), 1,
+              1e-11)
       << "m/s: points that turn about n do not move along it. With |w| in place of |n x w| this would be 2001";
 }
 
 TEST(Ex08SpeedBound, ALateFallCounts) {
-  EXPECT_NEAR(speed_bound(-Vec3::UnitZ(), mover({0, 0, 0}, {0, 0, 0}, 1, {0, 0, -10}), mover({0, 0, 0}), 2),
-              20, 1e-13)
+  EXPECT_NEAR(
+      fc::mine::speed_bound(-Vec3::UnitZ(), mover({0, 0, 0}, {0, 0, 0}, 1, {0, 0, -10}), mover({0, 0, 0}), 2),
+      20, 1e-13)
       << "m/s: A falls for 2 s at 10 m/s^2 towards B: the bound must hold at the end, too";
-  EXPECT_NEAR(speed_bound(-Vec3::UnitZ(), mover({0, 0, -5}, {0, 0, 0}, 1, {0, 0, 10}), mover({0, 0, 0}), 2),
-              5, 1e-13)
+  EXPECT_NEAR(
+      fc::mine::speed_bound(-Vec3::UnitZ(), mover({0, 0, -5}, {0, 0, 0}, 1, {0, 0, 10}), mover({0, 0, 0}), 2),
+      5, 1e-13)
       << "m/s: A is slowed down: it is fastest now";
 }
 
 TEST(Ex08SpeedBound, FallingTogetherIsNotFalling) {
   const Vec3 gravity(0, 0, -9.81);
-  EXPECT_NEAR(speed_bound(-Vec3::UnitZ(), mover({0, 0, 0}, {0, 0, 0}, 1, gravity),
-                          mover({0, 0, -1}, {0, 0, 0}, 1, gravity), 10),
+  EXPECT_NEAR(fc::mine::speed_bound(-Vec3::UnitZ(), mover({0, 0, 0}, {0, 0, 0}, 1, gravity),
+                                    mover({0, 0, -1}, {0, 0, 0}, 1, gravity), 10),
               -1, 1e-12)
       << "m/s: both have the same acceleration: subtract before you bound";
 }
@@ -64,7 +68,7 @@ TEST(Ex08SpeedBound, NoPointIsFaster) {
     const Mover b =
         mover(vec(), 3 * vec(), std::abs(gauss(random)) + 0.1, round % 3 ? vec() : Vec3(Vec3::Zero()));
     const double duration = std::abs(gauss(random));
-    const double bound = speed_bound(n, a, b, duration);
+    const double bound = fc::mine::speed_bound(n, a, b, duration);
     for (int k = 0; k < 8; ++k) {
       const double t = duration * k / 7;
       const Vec3 r_a = a.reach * vec().normalized(),
@@ -91,7 +95,7 @@ TEST(Ex08SpeedBound, IsAttained) {
     for (const double t : {0.0, duration})
       most = std::max(most, n.dot(a.velocity + t * a.acceleration + a.spin.cross(r_a) -
                                   (b.velocity + t * b.acceleration + b.spin.cross(r_b))));
-    ASSERT_NEAR(speed_bound(n, a, b, duration), most, 1e-11)
+    ASSERT_NEAR(fc::mine::speed_bound(n, a, b, duration), most, 1e-11)
         << "m/s: two points can be as fast as that, and none faster. A larger bound is safe, and costs advances";
   }
 }
