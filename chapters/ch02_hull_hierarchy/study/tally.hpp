@@ -1,7 +1,7 @@
 // What the study counts of many queries, and how that becomes rows of a table.
 #pragma once
 
-#include "ch02_hull_hierarchy/study_parts.hpp"
+#include "ch02_hull_hierarchy/study/parts.hpp"
 #include "common/stopwatch.hpp"
 #include "common/table.hpp"
 

@@ -1,4 +1,4 @@
-#include "ch02_hull_hierarchy/study_mesh.hpp"
+#include "ch02_hull_hierarchy/study/mesh.hpp"
 
 #include <algorithm>
 #include <array>

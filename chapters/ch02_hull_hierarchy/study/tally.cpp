@@ -1,10 +1,10 @@
-#include "ch02_hull_hierarchy/study_tally.hpp"
+#include "ch02_hull_hierarchy/study/tally.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "ch02_hull_hierarchy/pieces.hpp"
-#include "ch02_hull_hierarchy/study_mesh.hpp"
+#include "ch02_hull_hierarchy/convex_pieces.hpp"
+#include "ch02_hull_hierarchy/study/mesh.hpp"
 #include "common/errors.hpp"
 
 namespace fc::hulls {

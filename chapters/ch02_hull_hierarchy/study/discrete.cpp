@@ -5,7 +5,7 @@
 #include "ch02_hull_hierarchy/advance.hpp"
 #include "ch02_hull_hierarchy/box_steps.hpp"
 #include "ch02_hull_hierarchy/features.hpp"
-#include "ch02_hull_hierarchy/study_parts.hpp"
+#include "ch02_hull_hierarchy/study/parts.hpp"
 #include "common/program.hpp"
 #include "common/stopwatch.hpp"
 #include "common/table.hpp"

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "ch02_hull_hierarchy/study_tally.hpp"
+#include "ch02_hull_hierarchy/study/tally.hpp"
 
 namespace fc::hulls {
 
@@ -48,7 +48,7 @@ void study_tightness(const StudyCase& c, const StudyOptions& options) {
         const int n = nodes[k * nodes.size() / count];
         const double r = hulls.tree.nodes[n].radius;
         radius += r / count;
-        const Vec3 thin = thin_direction(hulls.tree.hull(hulls.tree.nodes[n]));
+        const Vec3 thin = thin_direction(hulls.tree.nodes[n].points);
         across += 0.5 / count * (overhang(volumes, hulls, n, thin) + overhang(volumes, hulls, n, -thin)) / r;
         for (const Vec3& d : directions) all.push_back(overhang(volumes, hulls, n, d) / r);
       }
@@ -70,7 +70,7 @@ void study_pictures(const StudyCase& c, const StudyOptions& options) {
     for (const int n : level) {
       const HullNode& node = hulls.tree.nodes[n];
       if (depth % 2 == 0)
-        for (const Vec3& p : hulls.tree.hull(node)) table.row({depth, std::int64_t{n}, p.x(), p.y(), p.z()});
+        for (const Vec3& p : node.points) table.row({depth, std::int64_t{n}, p.x(), p.y(), p.z()});
       if (!node.leaf()) next.insert(next.end(), {node.left, node.right});
     }
     level = std::move(next);

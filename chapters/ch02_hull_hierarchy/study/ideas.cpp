@@ -2,8 +2,8 @@
 #include <map>
 #include <tuple>
 
-#include "ch02_hull_hierarchy/study_mesh.hpp"
-#include "ch02_hull_hierarchy/study_tally.hpp"
+#include "ch02_hull_hierarchy/study/mesh.hpp"
+#include "ch02_hull_hierarchy/study/tally.hpp"
 #include "common/program.hpp"
 #include "common/stopwatch.hpp"
 
@@ -103,8 +103,7 @@ void study_leaves(const StudyCase& c, const StudyOptions& options) {
         const Tally tally = by_study(hulls, family.motions, reach, Order::best_first, Bound::points);
         table.row(with({family.name, name_of(row.volume), name_of(leaves),
                         row.most < kAllPoints ? Cell(std::int64_t{row.most}) : Cell(std::string("all")),
-                        static_cast<std::int64_t>(hulls.pieces.start.size() - 1),
-                        static_cast<std::int64_t>(hulls.tree.points.size())},
+                        static_cast<std::int64_t>(hulls.pieces.start.size() - 1), points_in(hulls.tree)},
                        cells(tally)));
       }
       progress.update(++done);

@@ -1,4 +1,4 @@
-#include "ch02_hull_hierarchy/study_tree.hpp"
+#include "ch02_hull_hierarchy/study/tree.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -82,14 +82,14 @@ Rounded fewer_points(std::span<const Vec3> points, int most) {
   return hull;
 }
 
-Rounded volume_of(const HullTree& tree, const HullNode& node, const StudyTreeOptions& options) {
-  const std::span<const Vec3> points = tree.hull(node);
-  Rounded volume{{points.begin(), points.end()}, 0};
+Rounded volume_of(const HullNode& node, const StudyTreeOptions& options) {
+  const std::span<const Vec3> points = node.points;
+  Rounded volume{node.points, 0};
   if (node.leaf()) return {volume.points, node.slack};
   if (options.volume == Volume::sphere) volume = {{node.center}, node.radius};
   if (options.volume == Volume::swept_sphere) volume = capsule_around(points);
   if (options.volume == Volume::box) volume = box_around(points);
-  if (options.volume == Volume::hull && node.point_count > options.most_points)
+  if (options.volume == Volume::hull && static_cast<int>(points.size()) > options.most_points)
     volume = fewer_points(points, options.most_points);
   // The rounding of what was computed above.
   if (options.volume != Volume::hull || volume.radius > 0)
@@ -121,14 +121,11 @@ HullModel build_study_model(const Model& model, const Lists& pieces, const Study
   result.radius = model.radius;
   result.reach = model.reach;
   result.pieces = options.leaves == Leaves::pieces ? pieces : single_triangles(model.mesh);
-  const HullTree hulls = build_hull_tree(model.mesh, result.pieces);
-  result.tree.nodes = hulls.nodes;
+  result.tree = clear::hull_tree(points_of_pieces(model.mesh, result.pieces));
   for (HullNode& node : result.tree.nodes) {
-    const Rounded volume = volume_of(hulls, node, options);
+    Rounded volume = volume_of(node, options);
     node.slack = volume.radius;
-    node.first_point = static_cast<int>(result.tree.points.size());
-    node.point_count = static_cast<int>(volume.points.size());
-    result.tree.points.insert(result.tree.points.end(), volume.points.begin(), volume.points.end());
+    node.points = std::move(volume.points);
   }
   return result;
 }
@@ -136,8 +133,7 @@ HullModel build_study_model(const Model& model, const Lists& pieces, const Study
 double overhang(const HullModel& volumes, const HullModel& hulls, int node, const Vec3& direction) {
   const auto reach = [&](const HullModel& model) {
     const HullNode& n = model.tree.nodes[node];
-    const std::span<const Vec3> points = model.tree.hull(n);
-    return points[ca::support(points, direction)].dot(direction) + n.slack;
+    return n.points[ca::support(n.points, direction)].dot(direction) + n.slack;
   };
   return reach(volumes) - reach(hulls);
 }

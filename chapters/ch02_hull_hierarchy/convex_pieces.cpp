@@ -1,4 +1,4 @@
-#include "ch02_hull_hierarchy/pieces.hpp"
+#include "ch02_hull_hierarchy/convex_pieces.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ namespace {
 constexpr double kNeedleHeight = 1e-4;
 constexpr double kFlatThickness = 1e-9;  // of the piece's size; thinner pieces are checked as polygons
 
-struct Plane {
+struct HullPlane {
   Vec3 normal;    // unit, outward
   double offset;  // normal.x = offset on the plane
 };
@@ -85,8 +85,8 @@ class TriangleGrid {
 // The planes that bound the hull of a few points: every plane through three of them that has the others on
 // one side. Planes of nearly collinear points are left out, which can only make the region larger and the
 // test below stricter.
-std::vector<Plane> bounding_planes(const std::vector<Vec3>& points, double slack) {
-  std::vector<Plane> planes;
+std::vector<HullPlane> bounding_planes(const std::vector<Vec3>& points, double slack) {
+  std::vector<HullPlane> planes;
   const int n = static_cast<int>(points.size());
   for (int i = 0; i < n; ++i)
     for (int j = i + 1; j < n; ++j)
@@ -109,9 +109,9 @@ std::vector<Plane> bounding_planes(const std::vector<Vec3>& points, double slack
 
 // Whether a triangle reaches into the region normal.x < offset - depth of all planes: clip it by one plane
 // after another.
-bool reaches_inside(const std::vector<Plane>& planes, double depth, std::vector<Vec3> polygon) {
+bool reaches_inside(const std::vector<HullPlane>& planes, double depth, std::vector<Vec3> polygon) {
   std::vector<Vec3> kept;
-  for (const Plane& plane : planes) {
+  for (const HullPlane& plane : planes) {
     kept.clear();
     for (std::size_t i = 0; i < polygon.size(); ++i) {
       const Vec3& p = polygon[i];
@@ -201,7 +201,7 @@ struct Decomposition {
     double thickness = 0;
     for (const int v : corners) thickness = std::max(thickness, -height(piece[0], v));
     if (thickness <= kFlatThickness * box.diagonal().norm()) return is_convex_polygon(points, area);
-    const std::vector<Plane> planes = bounding_planes(points, slack);
+    const std::vector<HullPlane> planes = bounding_planes(points, slack);
     return !grid.any_near(box, [&](int t) {
       if (std::find(piece.begin(), piece.end(), t) != piece.end()) return false;
       const auto& [i, j, k] = mesh.triangles[t];

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "ch02_hull_hierarchy/study_tally.hpp"
+#include "ch02_hull_hierarchy/study/tally.hpp"
 #include "common/errors.hpp"
 #include "common/program.hpp"
 

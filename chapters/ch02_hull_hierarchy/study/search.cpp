@@ -1,4 +1,4 @@
-#include "ch02_hull_hierarchy/study_search.hpp"
+#include "ch02_hull_hierarchy/study/search.hpp"
 
 #include <algorithm>
 #include <array>
@@ -77,16 +77,9 @@ struct Search {
                     points_step(motion_a, hull_a, motion_b, hull_b, pose, n, t, options.interval, room).time);
   }
 
-  // A node as a convex shape; its own reach from the centre of mass, not the whole body's.
-  static ca::Convex convex(const HullModel& model, const HullNode& node) {
-    ca::Convex hull = model.convex(node);
-    hull.reach = std::min(model.reach, node.center.norm() + node.radius);
-    return hull;
-  }
-
   Look look(const Pair& pair, double t) {
     if (t != pose_time) pose = ca::PairPose(motion_a, motion_b, pose_time = t);
-    const ca::Convex hull_a = convex(a, node_a(pair)), hull_b = convex(b, node_b(pair));
+    const ca::Convex hull_a = a.convex(node_a(pair)), hull_b = b.convex(node_b(pair));
     Look look;
     ca::GjkResult& g = look.gjk = ca::distance(hull_a, hull_b, pose, {options.slack / 4, 0.05, 128});
     const bool both_leaves = leaves(pair);
@@ -130,7 +123,7 @@ struct Search {
     else if (t + look.step < end)
       fate = leaves(pair) || look.gjk.lower - options.target > kFarApart * radii(pair) ? Fate::advanced
                                                                                        : Fate::opened;
-    study.visits->push_back({t, look.step, look.gjk.lower, radii(pair), leaves(pair), fate});
+    study.visits->push_back({pair.a, pair.b, t, look.step, look.gjk.lower, radii(pair), leaves(pair), fate});
   }
 
   // each pair at its own time

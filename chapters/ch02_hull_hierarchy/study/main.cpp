@@ -1,8 +1,8 @@
 // ch02_study: what each idea of the hierarchical search gains, and what continuous detection costs and gives.
 #include <CLI/CLI.hpp>
 
-#include "ch02_hull_hierarchy/study_mesh.hpp"
-#include "ch02_hull_hierarchy/study_parts.hpp"
+#include "ch02_hull_hierarchy/study/mesh.hpp"
+#include "ch02_hull_hierarchy/study/parts.hpp"
 #include "common/errors.hpp"
 #include "common/study_program.hpp"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "ch02_hull_hierarchy/advance.hpp"
-#include "ch02_hull_hierarchy/study_tree.hpp"
+#include "ch02_hull_hierarchy/study/tree.hpp"
 
 namespace fc::hulls {
 
@@ -43,6 +43,7 @@ inline std::ostream& operator<<(std::ostream& out, Fate fate) {
   return out << name_of(fate);
 }
 struct Visit {
+  int a, b;      // the nodes
   double time;   // s, of the pose at which the pair was looked at
   double step;   // s, for which it was then proved clear
   double gap;    // m, certified
@@ -61,7 +62,7 @@ struct StudyReach : Reach {
   std::int64_t rounds = 0;  // global, controlled: how often the hierarchy was gone through from the roots
 };
 
-// The first time at which two models come to the target gap: the same as first_reach and reach_by_hulls,
+// The first time at which two models come to the target gap: the same as first_reach and clear::search,
 // with the same promise: never late, whatever the options. Kept plain; no time to be saved by storage or
 // lanes.
 StudyReach study_reach(const HullModel& a, const ca::Motion& motion_a, const HullModel& b,

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "ch02_hull_hierarchy/study_motions.hpp"
-#include "ch02_hull_hierarchy/study_search.hpp"
+#include "ch02_hull_hierarchy/study/motions.hpp"
+#include "ch02_hull_hierarchy/study/search.hpp"
 #include "common/shape.hpp"
 
 namespace fc::hulls {
