@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "ch02_hull_hierarchy/clear/pieces.hpp"
+#include "ch03_impulse_lcp/clear/pieces.hpp"
 #include "common/pieces.hpp"
 
 namespace fc::world::clear {
@@ -68,10 +70,12 @@ using EventLoopFunction = void(Frame& frame);
 EventLoopFunction event_loop;
 
 struct Pieces {
+  hulls::clear::Pieces hulls;  // chapter 2's, with chapter 1's
+  lcp::clear::Pieces lcp;      // chapter 3's
   GapRuleFunction* gap_rule = clear::gap_rule;
   EventLoopFunction* event_loop = clear::event_loop;
 };
-// In the order of the exercises, the earlier chapters' first.
+// In the order of the exercises, the earlier chapters' first: those on which a scene of many bodies runs.
 std::vector<PieceSlot> slots(Pieces& pieces);
 
 }  // namespace fc::world::clear

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <deque>
 #include <limits>
@@ -16,7 +17,6 @@
 namespace {
 
 using fc::mine::Event;
-using fc::mine::event_loop;
 using fc::mine::Frame;
 using Kind = fc::mine::Event::Kind;
 using Log = std::vector<std::string>;
@@ -84,7 +84,7 @@ class Script : public Frame {
 
 TEST(Ex07EventLoop, AFrameWithoutEventsIsOver) {
   Script frame;
-  event_loop(frame);
+  fc::mine::event_loop(frame);
   EXPECT_EQ(frame.log, Log{});
 }
 
@@ -93,7 +93,7 @@ TEST(Ex07EventLoop, WhatIsClearOnlyUntilNowIsQueriedAgain) {
   frame.events = {{Kind::clear, 0.25, 3, 7}};
   frame.found = {{Kind::clear, 0.5, 3, 7}, {Kind::contact, 0.75, 3, 7}};
   frame.changed = {3, 7};
-  event_loop(frame);
+  fc::mine::event_loop(frame);
   EXPECT_EQ(frame.log,
             (Log{"query 3 7 at 0.25", "query 3 7 at 0.5", "solve 3 7 at 0.75", "renew 3 7 at 0.75"}))
       << "the search had come to 0.25 s, then to 0.5 s, and found the contact at 0.75 s";
@@ -103,7 +103,7 @@ TEST(Ex07EventLoop, BodiesWithAnotherMotionAreRenewed) {
   Script frame;
   frame.events = {{Kind::contact, 0.5, 1, 2}};
   frame.changed = {1, 2, 5};
-  event_loop(frame);
+  fc::mine::event_loop(frame);
   EXPECT_EQ(frame.log, (Log{"solve 1 2 at 0.5", "renew 1 2 5 at 0.5"}))
       << "the impact has changed bodies 1, 2 and 5: what the queue knows of their pairs belongs to motions that are over. "
       << "Renewing them queries the pair 1 2, too: once is enough";
@@ -113,7 +113,7 @@ TEST(Ex07EventLoop, OneOfTheTwoIsEnough) {  // the other one is a wall
   Script frame;
   frame.events = {{Kind::contact, 0.5, 0, 4}};
   frame.changed = {4};
-  event_loop(frame);
+  fc::mine::event_loop(frame);
   EXPECT_EQ(frame.log, (Log{"solve 0 4 at 0.5", "renew 4 at 0.5"}));
 }
 
@@ -121,7 +121,7 @@ TEST(Ex07EventLoop, APairThatOnlyTouchesIsNotLost) {
   Script frame;
   frame.events = {{Kind::contact, 0.5, 1, 2}};
   frame.found = {{Kind::contact, 0.75, 1, 2}};
-  event_loop(frame);
+  fc::mine::event_loop(frame);
   EXPECT_EQ(frame.log,
             (Log{"solve 1 2 at 0.5", "query 1 2 at 0.5", "solve 1 2 at 0.75", "query 1 2 at 0.75"}))
       << "nothing closed in, no motion has changed, and the event is off the queue: without a query nobody ever looks at "
@@ -131,7 +131,7 @@ TEST(Ex07EventLoop, APairThatOnlyTouchesIsNotLost) {
 TEST(Ex07EventLoop, SensorsAreReportedAndNotSolved) {
   Script frame;
   frame.events = {{Kind::sensed, 0.125, 2, 9}, {Kind::clear, 0.5, 1, 2}};
-  event_loop(frame);
+  fc::mine::event_loop(frame);
   EXPECT_EQ(frame.log, (Log{"report 2 9 at 0.125", "query 1 2 at 0.5"}));
 }
 
@@ -141,7 +141,7 @@ TEST(Ex07EventLoop, ImpactsThatPileUpAreFrozen) {
   frame.changed = {2};
   frame.stopped = {2, 3};
   frame.stalls = true;
-  event_loop(frame);
+  fc::mine::event_loop(frame);
   EXPECT_EQ(frame.log, (Log{"solve 1 2 at 0.5", "renew 2 at 0.5", "freeze at 0.5", "renew 2 3 at 0.5"}))
       << "the pair had no gap left to spend, and after the impact it closes in again: time must stop for it";
 }
@@ -150,7 +150,7 @@ TEST(Ex07EventLoop, APileIsSeenOnlyInTheNewAnswer) {
   Script frame;
   frame.events = {{Kind::contact, 0.5, 1, 2, true}};
   frame.stalls = true;
-  event_loop(frame);
+  fc::mine::event_loop(frame);
   EXPECT_EQ(frame.log, (Log{"solve 1 2 at 0.5", "query 1 2 at 0.5", "freeze at 0.5", "renew 1 2 at 0.5"}))
       << "is_stalled() tells of the last answer: ask after the query, not before";
 }
@@ -159,7 +159,7 @@ TEST(Ex07EventLoop, WhatPartsIsNotFrozen) {
   Script frame;
   frame.events = {{Kind::contact, 0.5, 1, 2, true}};
   frame.changed = {1, 2};
-  event_loop(frame);
+  fc::mine::event_loop(frame);
   EXPECT_EQ(frame.log, (Log{"solve 1 2 at 0.5", "renew 1 2 at 0.5"}))
       << "a pair without a gap to spend has been thrown apart: it goes on";
 }
@@ -169,7 +169,7 @@ TEST(Ex07EventLoop, TheFirstStallIsGivenAnImpactBeforeItIsFrozen) {
   frame.events = {{Kind::contact, 0.5, 1, 2, false}};
   frame.changed = {1, 2};
   frame.stalls = true;
-  event_loop(frame);
+  fc::mine::event_loop(frame);
   EXPECT_EQ(frame.log, (Log{"solve 1 2 at 0.5", "renew 1 2 at 0.5"}))
       << "the event itself was not stalled: its next one will be, and may still part the two";
 }
@@ -268,7 +268,7 @@ TEST(Ex07EventLoop, GalperinsBlocksCountTheDigitsOfPi) {
   double ratio = 1;
   for (const int expected : digits) {
     Wire wire({{0, 0, kWall}, {1, 0, 1}, {2, -1, ratio}}, 1e6);
-    event_loop(wire);
+    fc::mine::event_loop(wire);
     EXPECT_EQ(wire.collisions, expected)
         << "collisions of a block of " << ratio << " kg that pushes one of 1 kg against a wall";
     ratio *= 100;
@@ -290,7 +290,7 @@ TEST(Ex07EventLoop, EqualBeadsHandOnTheirVelocities) {
   }
   std::sort(ends.begin(), ends.end());
   Wire wire(beads, 9);
-  event_loop(wire);
+  fc::mine::event_loop(wire);
   EXPECT_EQ(wire.collisions, crossings) << "every crossing of two lines is a collision";
   for (std::size_t i = 0; i < beads.size(); ++i) {
     EXPECT_NEAR(wire.place(static_cast<int>(i), 9), ends[i], 1e-9) << "m, bead " << i << " after 9 s";
@@ -335,7 +335,7 @@ TEST(Ex07EventLoop, MovesTheEnginesBodiesAsTheBooksLoopDoes) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     const fc::Scene scene = thrown_together(seed, seed % 2 == 0 ? 0.9 : 0.2, seed > 2);
     fc::world::World yours = fc::world::build_world(scene), books = fc::world::build_world(scene);
-    yours.event_loop = event_loop;
+    yours.event_loop = fc::mine::event_loop;
     for (int frame = 0; frame < 30; ++frame) {
       const fc::world::StepReport mine = fc::world::step(yours, 1.0 / 30),
                                   expected = fc::world::step(books, 1.0 / 30);
