@@ -10,6 +10,7 @@
 
 #include "ch02_hull_hierarchy/advance.hpp"
 #include "ch03_impulse_lcp/impact.hpp"
+#include "ch04_multibody_stepping/clear/pieces.hpp"
 #include "ch04_multibody_stepping/effects.hpp"
 #include "ch04_multibody_stepping/paths.hpp"
 #include "ch04_multibody_stepping/schedule.hpp"
@@ -85,7 +86,9 @@ struct World {
   double part_start = 0;  // s, in the frame: from where the times of its bodies count, if it is cut in parts
   double rest_gap = 0;    // m, half of which a pair has left when it is stopped; 0: the tolerance
   lcp::ImpactOptions impact = {};  // the solver of an instant's contacts
-  SolverSpec solver;               // what the scene says of it
+  clear::GapRuleFunction* gap_rule = clear::gap_rule;
+  clear::EventLoopFunction* event_loop = clear::event_loop;
+  SolverSpec solver;  // what the scene says of it
 
   const hulls::Model& model_of(int body) const { return models[bodies[body].shape]; }
   double keep() const { return std::max(tolerance, rest_gap); }  // m: see find_next_contact()

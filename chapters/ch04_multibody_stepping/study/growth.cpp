@@ -1,7 +1,7 @@
 // What a gas costs, from ten bodies to thousands.
 #include <cmath>
 
-#include "ch04_multibody_stepping/study_parts.hpp"
+#include "ch04_multibody_stepping/study/parts.hpp"
 #include "common/program.hpp"
 #include "common/table.hpp"
 

@@ -3,12 +3,25 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ch04_multibody_stepping/study_parts.hpp"
+#include "ch04_multibody_stepping/study/parts.hpp"
 #include "common/program.hpp"
 #include "common/stopwatch.hpp"
 #include "common/table.hpp"
 
 namespace fc::world {
+
+// ANCHOR: moreau
+// Moreau (1988), of a ball on a floor: positions at half a step decide who is in contact; all velocities
+// change at once, with Newton's law where a contact closes in; and nobody asks when.
+void moreau_step(double dt, double gravity, double restitution, double& height, double& speed) {
+  height += 0.5 * dt * speed;
+  const double free_speed = speed - gravity * dt;
+  const bool contact = height <= 0;
+  speed = contact ? std::max(free_speed, -restitution * speed) : free_speed;
+  height += 0.5 * dt * speed;
+}
+// ANCHOR_END: moreau
+
 namespace {
 
 constexpr double kGravity = 9.81, kHeight = 2, kRestitution = 0.8, kEnd = 2.5;  // m/s^2, m, 1, s
@@ -48,22 +61,12 @@ Scene bouncing_ball(double tolerance) {
   return scene;
 }
 
-// ANCHOR: moreau
-// Moreau (1988), of a ball on a floor: positions at half a step decide who is in contact; all velocities
-// change at once, with Newton's law where a contact closes in; and nobody asks when.
 double moreau_height(double dt, std::int64_t& steps) {
   double height = kHeight, speed = 0;
   steps = static_cast<std::int64_t>(std::llround(kEnd / dt));
-  for (std::int64_t k = 0; k < steps; ++k) {
-    height += 0.5 * dt * speed;
-    const double free_speed = speed - kGravity * dt;
-    const bool contact = height <= 0;
-    speed = contact ? std::max(free_speed, -kRestitution * speed) : free_speed;
-    height += 0.5 * dt * speed;
-  }
+  for (std::int64_t k = 0; k < steps; ++k) moreau_step(dt, kGravity, kRestitution, height, speed);
   return height;
 }
-// ANCHOR_END: moreau
 
 void study_bounces(const StudyOptions& options) {
   TableWriter table(options.out / "bounces.csv", {{"method", ""},

@@ -4,7 +4,7 @@
 #include <random>
 
 #include "ch04_multibody_stepping/record.hpp"
-#include "ch04_multibody_stepping/study_parts.hpp"
+#include "ch04_multibody_stepping/study/parts.hpp"
 
 namespace fc::world {
 namespace {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "ch04_multibody_stepping/study_parts.hpp"
+#include "ch04_multibody_stepping/study/parts.hpp"
 #include "common/program.hpp"
 #include "common/table.hpp"
 

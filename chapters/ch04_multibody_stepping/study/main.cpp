@@ -1,7 +1,7 @@
 // ch04_study: what each effect costs, how the cost grows with the bodies, and what accuracy costs.
 #include <CLI/CLI.hpp>
 
-#include "ch04_multibody_stepping/study_parts.hpp"
+#include "ch04_multibody_stepping/study/parts.hpp"
 #include "common/study_program.hpp"
 
 int main(int argc, char** argv) {

@@ -22,6 +22,9 @@ void study_switches(const StudyOptions& options);  // switches.csv
 void study_growth(const StudyOptions& options);    // growth.csv
 void study_accuracy(const StudyOptions& options);  // bounces.csv, trajectories.csv
 
+// One step of Moreau's time stepping: a ball's height above a floor (m) and its speed (m/s, up).
+void moreau_step(double dt, double gravity, double restitution, double& height, double& speed);
+
 // Of what the bodies of a gas are.
 enum class Kind { ball, block, hull };
 
