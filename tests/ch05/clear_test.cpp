@@ -1,5 +1,5 @@
 // The clear version of chapter 5's step, beside the fast one: the laws that both must keep, and where bodies are.
-#include "ch05_resting_contact/clear.hpp"
+#include "ch05_resting_contact/clear/clear_resting.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
