@@ -241,10 +241,9 @@ std::vector<Smooth> smooth_scenes() {
         std::pair("turned", 5e-6), std::pair("islands", 5e-4), std::pair("one_frame", 5e-4)})
     list.push_back({name, fc::read_scene({gallery(name), {}, {}, 5}), apart, 1e-6});
   // Bodies that hit corners part ways: in half a second they do so by little.
-  list.push_back(
-      {"knocked",
-       fc::read_scene({gallery("knocked"), {"envelope=5.0e-4", "step.duration=0.4666666666666667"}, {}, 5}),
-       5e-3, 1e-2});
+  list.push_back({"knocked",
+                  fc::read_scene({gallery("knocked"), {"step.duration=0.4666666666666667"}, {}, 5}), 5e-3,
+                  1e-2});
   list.push_back(
       {"a box that glides and turns",
        text(on_a_floor(box,
@@ -351,8 +350,8 @@ TEST(Clear, RefusesWhatItDoesNotDo) {
 fc_test::Outcome run_program(const std::string& scene, const std::string& options,
                              const std::filesystem::path& out) {
   return fc_test::run(FC_BIN_DIR "/ch05_resting_contact " + gallery(scene).string() +
-                      " --quiet --poses --set step.duration=0.3333333333333333 --set envelope=5.0e-4 " +
-                      options + " --out " + out.string());
+                      " --quiet --poses --set step.duration=0.3333333333333333 " + options + " --out " +
+                      out.string());
 }
 
 // With the solution as the learner's file the run is the book's, to the byte.
