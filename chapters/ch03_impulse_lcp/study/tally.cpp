@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "ch03_impulse_lcp/study_parts.hpp"
+#include "ch03_impulse_lcp/study/parts.hpp"
 
 namespace fc::lcp {
 

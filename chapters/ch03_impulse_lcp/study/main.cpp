@@ -1,7 +1,7 @@
 // ch03_study: what accuracy costs with each solver, how the cost grows, and which solver is best how often.
 #include <CLI/CLI.hpp>
 
-#include "ch03_impulse_lcp/study_parts.hpp"
+#include "ch03_impulse_lcp/study/parts.hpp"
 #include "common/study_program.hpp"
 
 int main(int argc, char** argv) {

@@ -1,5 +1,5 @@
 // Every method on a few hundred problems: what performance profiles are made of (Dolan and More 2002).
-#include "ch03_impulse_lcp/study_parts.hpp"
+#include "ch03_impulse_lcp/study/parts.hpp"
 #include "common/program.hpp"
 #include "common/table.hpp"
 

@@ -1,5 +1,5 @@
 // What accuracy costs: pivoting methods are a point, iterative ones a curve; and what a fixed time buys.
-#include "ch03_impulse_lcp/study_parts.hpp"
+#include "ch03_impulse_lcp/study/parts.hpp"
 #include "common/program.hpp"
 #include "common/table.hpp"
 

@@ -1,7 +1,7 @@
 // How pivots, sweeps, steps and time grow with the number of rows.
 #include <cmath>
 
-#include "ch03_impulse_lcp/study_parts.hpp"
+#include "ch03_impulse_lcp/study/parts.hpp"
 #include "common/program.hpp"
 #include "common/table.hpp"
 
