@@ -1,7 +1,7 @@
 // What the width of the envelope and the length of a frame are worth, and what they cost.
 #include <cmath>
 
-#include "ch05_resting_contact/study_parts.hpp"
+#include "ch05_resting_contact/study/parts.hpp"
 #include "common/program.hpp"
 #include "common/table.hpp"
 

@@ -2,7 +2,7 @@
 // and Jean's time stepping.
 #include <cmath>
 
-#include "ch05_resting_contact/study_parts.hpp"
+#include "ch05_resting_contact/study/parts.hpp"
 #include "common/program.hpp"
 #include "common/table.hpp"
 

@@ -5,8 +5,8 @@
 #include <random>
 
 #include "ch04_multibody_stepping/record.hpp"
-#include "ch05_resting_contact/moreau_jean.hpp"
-#include "ch05_resting_contact/study_parts.hpp"
+#include "ch05_resting_contact/study/moreau_jean.hpp"
+#include "ch05_resting_contact/study/parts.hpp"
 
 namespace fc::resting {
 namespace {

@@ -2,7 +2,7 @@
 // the method.
 #include <CLI/CLI.hpp>
 
-#include "ch05_resting_contact/study_parts.hpp"
+#include "ch05_resting_contact/study/parts.hpp"
 #include "common/study_program.hpp"
 
 int main(int argc, char** argv) {

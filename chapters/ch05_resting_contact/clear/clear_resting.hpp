@@ -1,9 +1,10 @@
-// Chapter 5's step as short as it can be said: the same plans as resting.hpp, found in the plainest way. For convex bodies,
-// with gravity alone.
+// Chapter 5's step in its clear form: the same plans as resting.hpp, found in the plainest way. For convex bodies, with gravity
+// alone. It runs on the piece of exercise 5.7.
 #pragma once
 
 #include <vector>
 
+#include "ch05_resting_contact/clear/pieces.hpp"
 #include "ch05_resting_contact/island.hpp"
 
 namespace fc::resting {
@@ -14,13 +15,13 @@ struct ClearReport {
   double correction_energy = 0;  // J, of potential energy: what corrections of positions lifted
 };
 
-struct ClearDraft;  // a plan in the making, see clear.cpp
+class ClearPlan;
 
 class ClearResting : public world::Planner {
  public:
   // Sets the world's rest gap. Throws as envelope_of(), and InputError for what it does not do: meshes, drag, sleep, sensors,
-  // free rotation.
-  ClearResting(const Scene& scene, world::World& world, double dt);
+  // free rotation, another solver.
+  ClearResting(const Scene& scene, world::World& world, double dt, const clear::Pieces& pieces = {});
 
   // One frame of dt seconds (that of the constructor). Throws SceneFailure where impulses cannot be found, or no plan is short
   // enough to be proved.
@@ -47,9 +48,10 @@ class ClearResting : public world::Planner {
   void end_plan_of(world::World& world, int body, double now, std::vector<int>& bodies);
   void stop_what_closes(const world::World& world, Island& island, double now);
   void plan(world::World& world, const Island& island, double now);
-  void follow(world::World& world, const ClearDraft& draft);
+  void follow(world::World& world, const ClearPlan& made);
   void report_impulses(const std::vector<world::ImpactRecord>& records, double share);
 
+  clear::Pieces pieces_;
   Contacts contacts_;
   IslandFinder islands_;
   std::vector<int> no_piles_;  // of each body: it is in none

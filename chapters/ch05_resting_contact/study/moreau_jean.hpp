@@ -52,7 +52,7 @@ class MoreauJean {
     std::int64_t ns = 0;
   };
   MoreauJean(const world::World& world, double dt) : facing_(world), dt_(dt) {}
-  // Tells `impact` of each impulse. Throws NumericalFailure if the contacts cannot be solved.
+  // Reports each impulse to `impact`. Throws NumericalFailure if the contacts cannot be solved.
   Report step(world::World& world, const world::OnImpact& impact = {});
 
  private:

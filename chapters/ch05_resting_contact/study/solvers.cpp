@@ -1,7 +1,7 @@
 // What sweeps are worth: a stack of ten, of which every force is known, and a heap.
 #include <limits>
 
-#include "ch05_resting_contact/study_parts.hpp"
+#include "ch05_resting_contact/study/parts.hpp"
 #include "common/program.hpp"
 #include "common/table.hpp"
 

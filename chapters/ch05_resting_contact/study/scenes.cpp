@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ch05_resting_contact/study_parts.hpp"
+#include "ch05_resting_contact/study/parts.hpp"
 
 namespace fc::resting {
 

@@ -1,4 +1,4 @@
-#include "ch05_resting_contact/moreau_jean.hpp"
+#include "ch05_resting_contact/study/moreau_jean.hpp"
 
 #include <algorithm>
 #include <cmath>
