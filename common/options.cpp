@@ -70,6 +70,11 @@ Options parse_options(int argc, char** argv, int chapter, const std::string& pur
       ->disable_flag_override();
   app.add_flag("--poses", options.poses, "Write poses.csv: every body at every frame (chapter 4 on)")
       ->disable_flag_override();
+  app.add_flag("--clear", options.clear, "Run on the clear versions of the text, instead of the fast ones")
+      ->disable_flag_override();
+  app.add_flag("--mine", options.mine,
+               "As --clear, on your own pieces where they pass ./run check, on the book's for the rest")
+      ->disable_flag_override();
   app.add_flag("--quiet", options.quiet, "Print nothing but errors")->disable_flag_override();
   try {
     app.parse(argc, argv);

@@ -14,7 +14,7 @@ struct Options {
   std::vector<std::string> sets;                 // --set, in order
   std::string sweep;                             // --sweep; empty = none
   std::vector<std::filesystem::path> mesh_path;  // --mesh-path, in order
-  bool explain = false, certificate = false, poses = false, quiet = false;
+  bool explain = false, certificate = false, poses = false, quiet = false, clear = false, mine = false;
   std::string help;  // the text for --help; empty = not asked for
 };
 

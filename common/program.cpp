@@ -38,6 +38,8 @@ std::string failure_text(const std::exception& error, const Scene& scene) {
 int run_scene(const Chapter& chapter, const Scene& scene, const RunContext& context, Summary& summary) {
   int exit_code = failed;
   std::string failure;
+  for (const PieceUse& piece : context.pieces)
+    summary.add_note("piece " + piece.number + ", " + piece.what, piece.mine ? "yours" : "the book's");
   try {
     exit_code = chapter.run(scene, context, summary);
   } catch (const InputError&) {
@@ -100,6 +102,18 @@ int run_sweep(const Chapter& chapter, const SceneSource& source, const Sweep& sw
   return exit_code;
 }
 
+// Fills the chapter's slots, if the options ask for it, and says with whose functions.
+std::vector<PieceUse> pieces_for(const Options& options, const Chapter& chapter) {
+  if (!options.clear && !options.mine) return {};
+  if (options.clear && options.mine)
+    throw InputError("--clear runs on the book's pieces, --mine on yours; give one of them");
+  if (chapter.pieces.empty())
+    throw InputError(fmt::format("--{}: this program has no clear version; leave it out",
+                                 options.mine ? "mine" : "clear"));
+  if (options.clear) return books(chapter.pieces);
+  return take_mine(chapter.pieces, mine_folder(), print_error);
+}
+
 int run_with(const Options& options, const Chapter& chapter) {
   const SceneSource source{options.scene, options.sets, options.mesh_path, chapter.number};
   // Under a sweep the scene is only complete, and only checked, with the swept value in it.
@@ -116,8 +130,14 @@ int run_with(const Options& options, const Chapter& chapter) {
     return done;
   }
   const std::filesystem::path default_dir = std::filesystem::path("out") / file_name_from(scene.name);
-  const RunContext context{chapter.name, options.out.value_or(default_dir), options.certificate,
-                           options.poses, options.quiet};
+  const std::vector<PieceUse> pieces = pieces_for(options, chapter);
+  const RunContext context{chapter.name,
+                           options.out.value_or(default_dir),
+                           options.certificate,
+                           options.poses,
+                           options.quiet,
+                           options.clear || options.mine,
+                           pieces};
   return sweep.values.empty() ? run_once(chapter, scene, context)
                               : run_sweep(chapter, source, sweep, context);
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "common/pieces.hpp"
 #include "common/scene.hpp"
 #include "common/table.hpp"
 
@@ -74,6 +75,8 @@ struct RunContext {
   bool certificate = false;       // --certificate
   bool poses = false;             // --poses
   bool quiet = false;             // --quiet
+  bool clear = false;             // --clear or --mine: run on the chapter's pieces
+  std::vector<PieceUse> pieces = {};  // whose they are, if so
 };
 
 // One line of --explain.
@@ -96,6 +99,8 @@ struct Chapter {
   // Throws InputError for what only the built scene shows (bodies that overlap, a matrix that cannot be
   // read); asked before a sweep begins. May be empty.
   std::function<void(const Scene&)> check = {};
+  std::vector<PieceSlot> pieces =
+      {};  // which its clear versions run on; none: it has no --clear and no --mine
 };
 
 // The whole of main(): parses options, reads the scene, runs, sweeps or explains, prints, and maps failures

@@ -16,6 +16,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 import last_result
+import pieces
 from building import ROOT, Exercise, build, from_root, known_exercises, select
 
 LIMIT = 20  # seconds for the tests of one exercise: they take a fraction of one
@@ -95,6 +96,19 @@ def verdict(tests: list[dict]) -> State:
 
 
 def check(exercise: Exercise, folder: Path, root: Path, limit: float) -> State:
+    """How far the exercise is; a piece of the engine that is done is compiled for the programs, too."""
+    state = tested(exercise, folder, root, limit)
+    if pieces.is_piece(exercise, root):
+        if state.done:
+            state.detail = pieces.hand_over(exercise, folder, root)
+        elif state.text == NOT_STARTED:
+            pieces.take_back(exercise, root)
+        else:
+            pieces.refuse(exercise, root, state.text)
+    return state
+
+
+def tested(exercise: Exercise, folder: Path, root: Path, limit: float) -> State:
     kept = last_result.recall(exercise, folder, root)
     if kept:
         return State(**kept)
@@ -163,6 +177,8 @@ def main() -> int:
         after = exercises[exercises.index(exercise) + 1:]
         show(exercise, state, advice(exercise, state, after[0] if after and len(chosen) == 1 else None))
     print(f"{done} of {len(chosen)} exercise{'s' if len(chosen) > 1 else ''} done")
+    if told := pieces.count(exercises, options.root):
+        print(told)
     return 0 if done == len(chosen) else 1
 
 

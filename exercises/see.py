@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Shows what the learner's code of one exercise does: builds its demo, runs it, draws what it wrote, says where.
+"""Shows what the learner's code of one exercise does: builds its demo, runs it, draws what it wrote, says where. A piece of
+the engine without a demo is shown in its chapter's program, run with --mine.
 
 Ends with 0 if there is a picture, 1 if not (the exercise is not started, does not compile, or its demo fails), 2 for a
 name that is none."""
@@ -8,6 +9,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pieces
 from building import Exercise, build, from_root
 from check import NOT_STARTED, check, chosen_of, first_error, options_of, show, why_it_ended
 
@@ -30,6 +32,8 @@ def see(exercise: Exercise, folder: Path, root: Path, limit: float) -> int:
     show(exercise, state, "")
     if state.text == "does not compile":
         return 1
+    if not (root / "exercises" / exercise.chapter / f"{exercise.name}.demo.cpp").exists():
+        return see_in_program(exercise, folder, root)
     demo = exercise.target("demo")
     built, log = build(folder, demo)
     if not built:
@@ -47,6 +51,24 @@ def see(exercise: Exercise, folder: Path, root: Path, limit: float) -> int:
         print(f"cannot be drawn: {wrong}")
         return 1
     print("".join(f"drawn: {line}\n" for line in said.splitlines()), end="")
+    return 0
+
+
+def see_in_program(exercise: Exercise, folder: Path, root: Path) -> int:
+    """Runs the chapter's program on the learner's pieces."""
+    scene = pieces.scene_of(exercise, root)
+    program = Path(scene).parts[1]
+    built, log = build(folder, program)
+    if not built:
+        print(f"{program} does not compile: {from_root(first_error(log, exercise.file)[0], root, folder)}")
+        return 1
+    out = f"out/{exercise.chapter}_{exercise.number}"
+    code, said, wrong = run([folder.resolve() / "bin" / program, scene, "--mine", "--out", out], root)
+    print("".join(f"{line}\n" for line in [*said.splitlines(), *wrong.splitlines()]), end="", flush=True)
+    if code != 0:
+        return 1
+    motion = root / out / "motion.html"
+    print(f"look at it: {out}/motion.html" if motion.exists() else f"its results: {out}")
     return 0
 
 

@@ -46,9 +46,15 @@ def exercise_faults(root: Path) -> list[str]:
         dotted = f"{int(chapter[2:])}.{int(number[2:])}"
         tests = root / "tests/exercises" / chapter
         test = tests / f"{name}_test.cpp"
-        parts = [header, header.with_suffix(".cpp"), header.with_name(f"{name}.demo.cpp"), test,
-                 root / "solutions" / chapter / f"{name}.cpp", root / "plots" / f"{chapter}_{name}.py"]
-        mutants = sorted((tests / "mutants").glob(f"{name}.*.cpp"))
+        parts = [header, header.with_suffix(".cpp"), test, root / "solutions" / chapter / f"{name}.cpp"]
+        demo, piece = header.with_name(f"{name}.demo.cpp"), header.with_name(f"{name}.piece.cpp")
+        if piece.exists():  # what it does is seen in the chapter's program
+            belonging.add(piece)
+            if not re.match(r"// See: chapters/\S+\.yaml\n", piece.read_text(encoding="utf-8")):
+                faults.append(f"{piece.name}: its first line names no scene to see it in")
+        if demo.exists() or not piece.exists():
+            parts += [demo, root / "plots" / f"{chapter}_{name}.py"]
+        mutants = sorted([*(tests / "mutants").glob(f"{name}.*.cpp"), *(tests / "mutants").glob(f"{name}.*.change")])
         belonging.update(parts, mutants)
         faults += [f"{name}: no {part.relative_to(root)}" for part in parts if not part.exists()]
         if f"fc_add_exercise({chapter} {name} " not in registered:

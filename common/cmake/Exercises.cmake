@@ -7,6 +7,14 @@
 #   solutions/ch01/ex01_door.cpp
 #   tests/exercises/ch01/ex01_door_test.cpp    compiled once, linked with each of the others
 #   tests/exercises/ch01/mutants/ex01_door.MISTAKE.cpp    first line: // Caught by: Suite.Test
+#                                   ....MISTAKE.change   the same as a change of the solution: see make_mutant.py
+#
+# An exercise that is a piece of the engine (common/pieces.hpp) has, instead of the demo, which it may have too,
+#
+#   exercises/ch01/ex06_closest_point.piece.cpp    hands the learner's function over; its first line: // See: SCENE
+#
+# and the targets ch01_ex06_piece (bin/../pieces/ch01_ex06.so of the learner's file) and ch01_ex06_book_piece (the same of the
+# solution, in pieces/book/, for the tests).
 #
 # Targets: ch01_ex01_exercise (the tests on the learner's code) and ch01_ex01_demo, both outside the default build, so that
 # a learner's file that does not compile breaks nothing else; and, for CTest, the proof that the tests are worth
@@ -30,8 +38,17 @@ function(fc_add_exercise chapter name)
   add_executable(${id}_exercise EXCLUDE_FROM_ALL ${learner})
   fc_exercise_settings(${id}_exercise ${chapter} ${id}_tests ${ARG_LINKS})
 
-  add_executable(${id}_demo EXCLUDE_FROM_ALL ${CMAKE_SOURCE_DIR}/exercises/${chapter}/${name}.demo.cpp ${learner})
-  fc_exercise_settings(${id}_demo ${chapter} ${ARG_LINKS} ${ARG_DEMO})
+  set(piece ${CMAKE_SOURCE_DIR}/exercises/${chapter}/${name}.piece.cpp)
+  set(demo ${CMAKE_SOURCE_DIR}/exercises/${chapter}/${name}.demo.cpp)
+  if(EXISTS ${piece})
+    fc_add_piece(${id} ${chapter} ${id}_piece ${CMAKE_BINARY_DIR}/pieces ${learner} ${piece})
+    set_target_properties(${id}_piece PROPERTIES EXCLUDE_FROM_ALL ON)
+    fc_add_piece(${id} ${chapter} ${id}_book_piece ${CMAKE_BINARY_DIR}/pieces/book ${CMAKE_SOURCE_DIR}/solutions/${chapter}/${name}.cpp ${piece})
+  endif()
+  if(EXISTS ${demo})
+    add_executable(${id}_demo EXCLUDE_FROM_ALL ${demo} ${learner})
+    fc_exercise_settings(${id}_demo ${chapter} ${ARG_LINKS} ${ARG_DEMO})
+  endif()
 
   add_executable(${id}_solution ${CMAKE_SOURCE_DIR}/solutions/${chapter}/${name}.cpp)
   fc_exercise_settings(${id}_solution ${chapter} ${id}_tests ${ARG_LINKS})
@@ -52,11 +69,21 @@ function(fc_add_exercise chapter name)
     message(STATUS "${name} has been begun: the proof that its tests fail on the stub is left out")
   endif()
 
-  file(GLOB mutants CONFIGURE_DEPENDS ${tests}/mutants/${name}.*.cpp)
+  file(GLOB mutants CONFIGURE_DEPENDS ${tests}/mutants/${name}.*.cpp ${tests}/mutants/${name}.*.change)
   foreach(mutant IN LISTS mutants)
     get_filename_component(mistake ${mutant} NAME_WLE)
     string(REPLACE "${name}." "" mistake ${mistake})
     file(STRINGS ${mutant} first LIMIT_COUNT 1)
+    if(mutant MATCHES "\\.change$")
+      file(STRINGS ${mutant} changes REGEX "^// Changes: ")
+      string(REPLACE "// Changes: " "" changes "${changes}")
+      set(change ${mutant})
+      set(mutant ${CMAKE_CURRENT_BINARY_DIR}/mutants/${chapter}/${name}.${mistake}.cpp)
+      set(solution ${CMAKE_SOURCE_DIR}/solutions/${chapter}/${name}.cpp)
+      add_custom_command(OUTPUT ${mutant} VERBATIM
+                         DEPENDS ${change} ${solution} ${CMAKE_SOURCE_DIR}/${changes} ${CMAKE_SOURCE_DIR}/common/cmake/make_mutant.py
+                         COMMAND python3 ${CMAKE_SOURCE_DIR}/common/cmake/make_mutant.py ${CMAKE_SOURCE_DIR} ${change} ${solution} ${mutant})
+    endif()
     string(REGEX REPLACE "^// Caught by: " "" catcher "${first}")
     add_executable(${id}_mutant_${mistake} ${mutant})
     fc_exercise_settings(${id}_mutant_${mistake} ${chapter} ${id}_tests ${ARG_LINKS})
@@ -67,10 +94,21 @@ function(fc_add_exercise chapter name)
   endforeach()
 endfunction()
 
+# A module that the programs load: the function of `source`, handed over by `piece`. What it calls of the engine it finds in them.
+function(fc_add_piece id chapter target folder source piece)
+  add_library(${target} MODULE ${source} ${piece})
+  fc_exercise_settings(${target} ${chapter})
+  target_link_libraries(${target} PRIVATE Eigen3::Eigen fmt::fmt)
+  set_target_properties(${target} PROPERTIES PREFIX "" SUFFIX .so OUTPUT_NAME ${id} LIBRARY_OUTPUT_DIRECTORY ${folder})
+  if(APPLE)
+    target_link_options(${target} PRIVATE -undefined dynamic_lookup)
+  endif()
+endfunction()
+
 function(fc_exercise_settings target chapter)
   target_include_directories(${target} PRIVATE ${CMAKE_SOURCE_DIR} ${CMAKE_SOURCE_DIR}/chapters ${CMAKE_SOURCE_DIR}/exercises/${chapter})
   target_link_libraries(${target} PRIVATE fc_settings ${ARGN})
-  if(NOT target MATCHES "_demo$")
+  if(NOT target MATCHES "_(demo|piece)$")
     target_link_libraries(${target} PRIVATE GTest::gtest_main)
   endif()
   if(FC_SANITIZE AND TARGET fc_precompiled_tests AND target MATCHES "_tests$")  # no learner waits for this build
