@@ -7,7 +7,7 @@ namespace fc::friction::clear {
 namespace {
 
 constexpr int kSweeps = 4000;
-constexpr double kWanted = 1e-12, kAccepted = 1e-6;  // residuals
+constexpr double kWanted = 1e-11, kAccepted = 1e-6;  // residuals
 constexpr double kSticking = 1e-9;  // a contact inside its cone by more than this part of it sticks
 
 // Each contact three times: along its normal, and along two tangents.
@@ -30,13 +30,13 @@ void apply(std::span<RigidBody> bodies, const std::vector<lcp::Contact>& rows, c
 
 // Chapter 5's push with three rows a contact: impulses r that Coulomb's law allows for the velocities after, with room (m/s, by
 // rows) added. No solution: velocities stay.
-bool push(ContactSolver* one_contact, std::span<RigidBody> bodies, std::span<const lcp::Contact> contacts,
+bool push(ContactFunction* solve_contact, std::span<RigidBody> bodies, std::span<const lcp::Contact> contacts,
           const VecX& mu, const VecX& room, VecX& r, int& sweeps) {
   if (contacts.empty()) return true;
   const std::vector<lcp::Contact> rows = three_rows(contacts);
   const lcp::ImpactProblem problem = lcp::assemble(bodies, rows);
   const VecX b = problem.v_before + room;
-  if (!sweep_contacts(one_contact, {problem.A, b, mu}, r, sweeps)) return false;
+  if (!sweep_contacts(solve_contact, {problem.A, b, mu}, r, sweeps)) return false;
   apply(bodies, rows, r);
   return true;
 }
@@ -44,7 +44,7 @@ bool push(ContactSolver* one_contact, std::span<RigidBody> bodies, std::span<con
 }  // namespace
 
 // ANCHOR: clear_sweep
-bool sweep_contacts(ContactSolver* one_contact, const ConeProblem& problem, VecX& r, int& sweeps) {
+bool sweep_contacts(ContactFunction* solve_contact, const ConeProblem& problem, VecX& r, int& sweeps) {
   const auto& [A, b, mu] = problem;
   double left = residual(problem, r, A * r + b);
   for (sweeps = 0; sweeps < kSweeps && left > kWanted; ++sweeps) {
@@ -52,7 +52,7 @@ bool sweep_contacts(ContactSolver* one_contact, const ConeProblem& problem, VecX
       const Mat3 own = problem.block(i);
       const Vec3 u = A.middleRows<3>(3 * i) * r + b.segment<3>(3 * i);
       const Vec3 q = u - own * r.segment<3>(3 * i);  // if this contact did nothing
-      r.segment<3>(3 * i) = one_contact(own, q, mu[i]).r;
+      r.segment<3>(3 * i) = solve_contact(own, q, mu[i]).r;
     }
     left = residual(problem, r, A * r + b);
   }
@@ -75,7 +75,7 @@ IslandResult ClearLaw::push(const ContactSet& set, std::span<const double> limit
   }
   int sweeps = 0;
   IslandResult result;
-  result.solved = clear::push(one_contact_, set.bodies, set.contacts, mu, room, r, sweeps);
+  result.solved = clear::push(solve_contact_, set.bodies, set.contacts, mu, room, r, sweeps);
   work_ += static_cast<double>(n) * sweeps;
   holds_.assign(set.contacts.size(), 0);
   if (!result.solved) {

@@ -20,6 +20,7 @@ struct Answer {
 // Guarantee: the law is broken by at most 1e-12 of (|A||r| + |q|)_max. Limit: two slips whose values of α/(α + tr D̂) are
 // nearer than 0.02 may both be overlooked, if there is a third one.
 // Throws std::invalid_argument if mu < 0, or if any number is not finite.
-Answer solve_contact(const Mat3& A, const Vec3& q, double mu);
+using ContactFunction = Answer(const Mat3& A, const Vec3& q, double mu);
+ContactFunction solve_contact;
 
 }  // namespace fc::friction::clear
