@@ -166,6 +166,14 @@ def chosen_of(options: argparse.Namespace, program: str) -> list[Exercise]:
     return chosen
 
 
+def name_program(exercise: Exercise, folder: Path) -> None:
+    """Gives the tests of the one exercise that was checked a name that an editor's debugger knows (.vscode/launch.json)."""
+    program, link = folder / "bin" / exercise.target("exercise"), folder / "bin/this_exercise"
+    if program.exists():
+        link.unlink(missing_ok=True)
+        link.symlink_to(program.name)
+
+
 def main() -> int:
     parser = options_of("check", __doc__, "./run check ch01/ex01")
     parser.add_argument("which", nargs="?", metavar="chNN[/exMM]", help="a chapter's exercises, or one; default: all")
@@ -176,6 +184,8 @@ def main() -> int:
         done += state.done
         after = exercises[exercises.index(exercise) + 1:]
         show(exercise, state, advice(exercise, state, after[0] if after and len(chosen) == 1 else None))
+    if len(chosen) == 1:
+        name_program(chosen[0], options.build)
     print(f"{done} of {len(chosen)} exercise{'s' if len(chosen) > 1 else ''} done")
     if told := pieces.count(exercises, options.root):
         print(told)

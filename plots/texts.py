@@ -18,6 +18,7 @@ from pathlib import Path
 import matplotlib
 
 import text_lint
+import text_words
 from text_compare import difference
 from text_marks import MarkError, fill
 
@@ -77,8 +78,13 @@ def compare(fresh: Path, root: Path) -> list[str]:
     return faults
 
 
+def lint(root: Path) -> list[str]:
+    """What is wrong without running anything."""
+    return text_lint.faults(root, texts(root)) + text_words.faults(root, texts(root))
+
+
 def check(root: Path, bin_dir: Path) -> list[str]:
-    faults = text_lint.faults(root, texts(root))
+    faults = lint(root)
     with tempfile.TemporaryDirectory() as folder:
         fresh = copy_of(root, bin_dir, Path(folder) / "copy")
         stale = [figure for figure in text_lint.figures(fresh) if figure.suffix == ".svg"]
@@ -99,7 +105,7 @@ def main() -> int:
         print(f"texts.py: {options.bin}: no such folder; build first, or use ./run figures", file=sys.stderr)
         return 2
     os.environ["PYTHON"] = sys.executable  # the texts' commands say python3: see text_marks.shell
-    faults = check(ROOT, options.bin) if options.check else make(ROOT, quiet=False) + text_lint.faults(ROOT, texts(ROOT))
+    faults = check(ROOT, options.bin) if options.check else make(ROOT, quiet=False) + lint(ROOT)
     for fault in faults:
         print(fault, file=sys.stderr)
     return 1 if faults else 0

@@ -76,12 +76,12 @@ function(fc_add_exercise chapter name)
     file(STRINGS ${mutant} first LIMIT_COUNT 1)
     if(mutant MATCHES "\\.change$")
       file(STRINGS ${mutant} changes REGEX "^// Changes: ")
-      string(REPLACE "// Changes: " "" changes "${changes}")
+      string(REPLACE "// Changes: " "${CMAKE_SOURCE_DIR}/" changes "${changes}")  # none: the solution is changed
       set(change ${mutant})
       set(mutant ${CMAKE_CURRENT_BINARY_DIR}/mutants/${chapter}/${name}.${mistake}.cpp)
       set(solution ${CMAKE_SOURCE_DIR}/solutions/${chapter}/${name}.cpp)
       add_custom_command(OUTPUT ${mutant} VERBATIM
-                         DEPENDS ${change} ${solution} ${CMAKE_SOURCE_DIR}/${changes} ${CMAKE_SOURCE_DIR}/common/cmake/make_mutant.py
+                         DEPENDS ${change} ${solution} ${changes} ${CMAKE_SOURCE_DIR}/common/cmake/make_mutant.py
                          COMMAND python3 ${CMAKE_SOURCE_DIR}/common/cmake/make_mutant.py ${CMAKE_SOURCE_DIR} ${change} ${solution} ${mutant})
     endif()
     string(REGEX REPLACE "^// Caught by: " "" catcher "${first}")
@@ -98,7 +98,11 @@ endfunction()
 function(fc_add_piece id chapter target folder source piece)
   add_library(${target} MODULE ${source} ${piece})
   fc_exercise_settings(${target} ${chapter})
-  target_link_libraries(${target} PRIVATE Eigen3::Eigen fmt::fmt)
+  foreach(library Eigen3::Eigen fmt::fmt)  # whose headers it may include
+    if(TARGET ${library})
+      target_link_libraries(${target} PRIVATE ${library})
+    endif()
+  endforeach()
   set_target_properties(${target} PROPERTIES PREFIX "" SUFFIX .so OUTPUT_NAME ${id} LIBRARY_OUTPUT_DIRECTORY ${folder})
   if(APPLE)
     target_link_options(${target} PRIVATE -undefined dynamic_lookup)

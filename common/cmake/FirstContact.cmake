@@ -58,8 +58,8 @@ target_precompile_headers(fc_precompiled PRIVATE
 function(fc_add_library name)
   cmake_parse_arguments(ARG "UNITY" "" "SOURCES;LINKS" ${ARGN})
   add_library(${name} STATIC ${ARG_SOURCES})
-  target_include_directories(${name} PUBLIC ${CMAKE_SOURCE_DIR} ${CMAKE_SOURCE_DIR}/chapters)
-  target_link_libraries(${name} PUBLIC fc_settings ${ARG_LINKS})
+  target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}> $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/chapters>)
+  target_link_libraries(${name} PUBLIC $<BUILD_INTERFACE:fc_settings> ${ARG_LINKS})
   target_precompile_headers(${name} REUSE_FROM fc_precompiled)
   set_target_properties(${name} PROPERTIES UNITY_BUILD ${ARG_UNITY} UNITY_BUILD_BATCH_SIZE 8)
 endfunction()
@@ -84,6 +84,18 @@ function(fc_add_stage name)
   get_property(taken DIRECTORY PROPERTY FC_TAKEN)
   list(REMOVE_ITEM sources ${taken})
   fc_add_library(${name} UNITY SOURCES ${sources} LINKS ${ARG_LINKS})
+  get_filename_component(folder ${CMAKE_CURRENT_SOURCE_DIR} NAME)
+  fc_install_library(${name} ${folder})
+endfunction()
+
+# fc_install_library(NAME FOLDER): `cmake --install` puts the library and the headers of the current folder where
+# find_package(first_contact) finds them, as first_contact::FOLDER.
+function(fc_install_library name folder)
+  target_compile_options(${name} INTERFACE $<INSTALL_INTERFACE:-ffp-contract=off>)  # headers compute bounds, too
+  target_include_directories(${name} INTERFACE $<INSTALL_INTERFACE:include/first_contact>)
+  set_target_properties(${name} PROPERTIES EXPORT_NAME ${folder})
+  install(TARGETS ${name} EXPORT first_contact ARCHIVE DESTINATION lib)
+  install(DIRECTORY . DESTINATION include/first_contact/${folder} FILES_MATCHING PATTERN "*.hpp" PATTERN study EXCLUDE)
 endfunction()
 
 # fc_add_program(NAME SOURCE LINKS ...): an executable. The chapter's own is named as its folder.

@@ -202,11 +202,102 @@ TEST_F(Program, HelpShowsPurposeOptionsExampleAndKeys) {
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.err, "");
   for (const char* text : {"Tries what chapters share.", "--out", "--set", "--sweep", "--explain",
-                           "--mesh-path", "--certificate", "--poses", "--quiet", "--help",
-                           "ch04_tiny scene.yaml", "gravity", "bodies[].grid.spacing"}) {
+                           "--mesh-path", "--certificate", "--poses", "--clear", "--mine", "--quiet",
+                           "--help", "ch04_tiny scene.yaml", "gravity", "bodies[].grid.spacing"}) {
     EXPECT_NE(result.out.find(text), std::string::npos) << text;
   }
   EXPECT_EQ(result.out.find("interval"), std::string::npos);  // chapters 1 and 2 only
+}
+
+// A folder as exercises/check.py fills it, for the tiny chapter's pieces.
+class Pieces : public Program {
+ protected:
+  void SetUp() override {
+    Program::SetUp();
+    std::filesystem::create_directories(mine());
+    std::ofstream(here_ / "twice.cpp") << kSource;
+  }
+  std::filesystem::path mine() const { return here_ / "mine"; }
+  void hand_over(const char* module, const std::string& name) const {
+    std::filesystem::copy_file(module, mine() / (name + ".so"));
+    std::ofstream(mine() / (name + ".source")) << (here_ / "twice.cpp").string() << "\n" << kSource;
+  }
+  Result run_mine(const std::string& options) const {
+    setenv("FC_MINE", mine().c_str(), 1);
+    const Result result = run("ball.yaml " + options);
+    unsetenv("FC_MINE");
+    return result;
+  }
+  nlohmann::json entry(const std::string& name) const {
+    return summary("out/ball")["entries"][name]["value"];
+  }
+  static constexpr const char* kSource = "double twice(double x) {\n  return 3 * x;\n}\n";
+};
+
+TEST_F(Pieces, ClearRunsOnTheBooks) {
+  hand_over(FC_GOOD_PIECE, "ch04_ex01");
+  const Result result = run_mine("--clear");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(entry("twice three"), 6);
+  EXPECT_EQ(entry("piece 4.1, twice a number"), "the book's");
+}
+
+TEST_F(Pieces, MineRunsOnTheLearnersAndSaysWhichAreWhose) {
+  hand_over(FC_GOOD_PIECE, "ch04_ex01");
+  const Result result = run_mine("--mine");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  EXPECT_EQ(entry("twice three"), 9);
+  EXPECT_EQ(entry("piece 4.1, twice a number"), "yours");
+  EXPECT_EQ(entry("piece 4.2, half a number"), "the book's");
+}
+
+TEST_F(Pieces, WhatDoesNotPassIsRefusedInALine) {
+  hand_over(FC_GOOD_PIECE, "ch04_ex01");
+  std::ofstream(mine() / "ch04_ex02.refused") << "3/8 tests pass\n";
+  const Result result = run_mine("--mine --quiet");
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(
+      result.err,
+      "--mine: your 4.2 (half a number) is not taken, but the book's: 3/8 tests pass; ./run check ch04/ex02\n");
+}
+
+TEST_F(Pieces, WhatHasChangedSinceItWasCheckedIsRefused) {
+  hand_over(FC_GOOD_PIECE, "ch04_ex01");
+  hand_over(FC_OTHER_PIECE, "ch04_ex02");  // of another type
+  std::string err = run_mine("--mine").err;
+  EXPECT_NE(err.find("4.2 (half a number) is not taken, but the book's: it was compiled for another version"),
+            std::string::npos)
+      << err;
+  EXPECT_EQ(entry("twice three"), 9);
+  std::filesystem::remove(mine() / "ch04_ex02.so");
+  std::ofstream(here_ / "twice.cpp", std::ios::app) << "// better\n";
+  const Result result = run_mine("--mine");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(
+      result.err,
+      "--mine: your 4.1 (twice a number) is not taken, but the book's: its file has changed since it was checked; "
+      "./run check ch04/ex01\n"
+      "--mine: of the 2 pieces that this program runs on, none of yours passes its tests yet; write 4.1 "
+      "(exercises/ch04/README.md), then ./run check\n");
+}
+
+TEST_F(Pieces, NoneOfTheLearnersIsRefused) {
+  const Result result = run_mine("--mine");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_TRUE(is_one_line(result.err)) << result.err;
+  EXPECT_FALSE(std::filesystem::exists(here_ / "out"));
+  EXPECT_EQ(run_mine("--mine --clear").exit_code, 2);
+}
+
+TEST_F(Pieces, AProgramWithoutPiecesHasNeither) {
+  setenv("FC_NO_PIECES", "1", 1);
+  for (const char* option : {"clear", "mine"}) {
+    const Result result = run_mine(std::string("--") + option);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_EQ(result.err, std::string("--") + option + ": this program has no clear version; leave it out\n");
+  }
+  unsetenv("FC_NO_PIECES");
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // A chapter that does nothing but end in the way that its scene's name asks for.
 #include <chrono>
+#include <cstdlib>
 #include <limits>
 #include <thread>
 
@@ -8,7 +9,17 @@
 
 namespace {
 
+double books_twice(double x) {
+  return 2 * x;
+}
+double books_half(double x) {
+  return x / 2;
+}
+double (*twice)(double) = books_twice;
+double (*half)(double) = books_half;
+
 int run(const fc::Scene& scene, const fc::RunContext& context, fc::Summary& summary) {
+  if (context.clear) summary.add("twice three", twice(3));
   summary.add("frames", std::int64_t{scene.step->frames});
   summary.add("duration", scene.step->duration, "s");
   summary.add("method", scene.solver.method);
@@ -43,6 +54,9 @@ std::vector<fc::Effect> explain(const fc::Scene& scene) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return fc::run_program(
-      argc, argv, {4, "ch04_tiny", "Tries what chapters share.", "ch04_tiny scene.yaml", explain, run});
+  fc::Chapter chapter{4, "ch04_tiny", "Tries what chapters share.", "ch04_tiny scene.yaml", explain, run};
+  if (std::getenv("FC_NO_PIECES") == nullptr)
+    chapter.pieces = {fc::slot("ch04/ex01_twice", "twice a number", twice),
+                      fc::slot("ch04/ex02_half", "half a number", half)};
+  return fc::run_program(argc, argv, chapter);
 }

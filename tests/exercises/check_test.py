@@ -26,7 +26,9 @@ add_library(fc_settings INTERFACE)
 target_compile_options(fc_settings INTERFACE -Wall -Wextra -Werror)
 fc_add_exercise(ch07 ex01_double)
 fc_add_exercise(ch07 ex02_half)
+fc_add_exercise(ch08 ex01_triple)
 add_executable(chapter chapter.cpp)
+add_executable(ch08_triples program.cpp)
 """
 HEADER = "#pragma once\ndouble twice(double x);  // 2 x\n"
 STUB = '#include "{name}.hpp"\n\n#include "common/todo.hpp"\n\ndouble twice(double x) {{ FC_TODO("7.1"); }}\n'
@@ -40,6 +42,21 @@ TEST(Double, OfThree) {{ EXPECT_EQ(twice(3), 6) << "metres"; }}
 SOLUTION = '#include "{name}.hpp"\n\ndouble twice(double x) {{ return 2 * x; }}\n'
 MUTANT = '// Caught by: Double.OfThree\n#include "{name}.hpp"\n\ndouble twice(double x) {{ return x * x; }}\n'
 NAMES = ("ex01_double", "ex02_half")
+PIECE_STUB = '#include "ex01_triple.hpp"\n#include "common/todo.hpp"\ndouble triple(double) { FC_TODO("8.1"); }\n'
+# A piece of the engine: no demo, a mutant that is a change of the solution, and a program that says how it was called.
+PIECE = {
+    "exercises/ch08/ex01_triple.hpp": "#pragma once\ndouble triple(double x);  // 3 x\n",
+    "exercises/ch08/ex01_triple.cpp": PIECE_STUB,
+    "exercises/ch08/ex01_triple.piece.cpp":
+        '// See: chapters/ch08_triples/scenes/three.yaml\n#include "common/pieces.hpp"\n#include "ex01_triple.hpp"\nFC_PIECE(triple);\n',
+    "tests/exercises/ch08/ex01_triple_test.cpp":
+        '#include <gtest/gtest.h>\n#include "ex01_triple.hpp"\nTEST(Triple, OfTwo) { EXPECT_EQ(triple(2), 6); }\n',
+    "solutions/ch08/ex01_triple.cpp": '#include "ex01_triple.hpp"\n\ndouble triple(double x) { return 3 * x; }\n',
+    "tests/exercises/ch08/mutants/ex01_triple.added.change":
+        "// Caught by: Triple.OfTwo\n<<<<\ndouble triple(double x) { return 3 * x; }\n====\ndouble triple(double x) { return 3 + x; }\n>>>>\n",
+    "program.cpp": '#include <cstdio>\nint main(int count, char** words) { for (int k = 1; k < count; ++k) std::puts(words[k]); }\n',
+}
+NONE = "the bunnies collide on 0 of 1 pieces of yours; the first is 8.1"
 TASK = "write exercises/ch07/ex01_double.cpp; the task is 7.1 in exercises/ch07/README.md"
 DEMO = """
 #include <cstdio>
@@ -68,12 +85,16 @@ class CheckTest(unittest.TestCase):
     def setUpClass(cls):
         cls.temporary = tempfile.TemporaryDirectory()
         cls.root = root = Path(cls.temporary.name)
-        for folder in ("common/cmake", "exercises/ch07", "solutions/ch07", "tests/exercises/ch07/mutants", "plots", "out"):
+        for folder in ("common/cmake", "exercises/ch07", "solutions/ch07", "tests/exercises/ch07/mutants", "plots", "out",
+                       "exercises/ch08", "solutions/ch08", "tests/exercises/ch08/mutants"):
             (root / folder).mkdir(parents=True)
-        for file in ("common/todo.hpp", "common/cmake/Exercises.cmake", "common/cmake/copy_stub.cmake"):
+        for file in ("common/todo.hpp", "common/pieces.hpp", "common/cmake/Exercises.cmake", "common/cmake/copy_stub.cmake",
+                     "common/cmake/make_mutant.py"):
             shutil.copy(ROOT / file, root / file)
         (root / "CMakeLists.txt").write_text(PROJECT)
         (root / "chapter.cpp").write_text("int main() {}\n")
+        for file, text in PIECE.items():
+            (root / file).write_text(text)
         for name in NAMES:
             for file, text in {f"exercises/ch07/{name}.hpp": HEADER, f"exercises/ch07/{name}.cpp": STUB,
                                f"exercises/ch07/{name}.demo.cpp": DEMO, f"plots/ch07_{name}.py": PLOT,
@@ -111,10 +132,52 @@ class CheckTest(unittest.TestCase):
         done = self.run_tool("check", *arguments, **environment)
         return done.returncode, done.stdout
 
+    def mine(self) -> set[str]:
+        return {file.name for file in (self.root / "build/mine").glob("*")}
+
+    def test_a_piece_that_passes_is_handed_over(self):
+        piece = self.root / "exercises/ch08/ex01_triple.cpp"
+        self.addCleanup(lambda: piece.write_text(PIECE_STUB))
+        self.assertIn(NONE, self.check("ch08")[1])
+        self.assertEqual(self.mine(), set())
+        shutil.copy(self.root / "solutions/ch08/ex01_triple.cpp", piece)
+        code, out = self.check("ch08")
+        self.assertEqual(code, 0, out)
+        self.assertTrue(out.splitlines()[-1].startswith("the bunnies collide on 1 of 1 pieces of yours: build/bin/ch04"), out)
+        self.assertEqual(self.mine(), {"ch08_ex01.so", "ch08_ex01.source"})
+        self.assertEqual((self.root / "build/mine/ch08_ex01.source").read_text(), f"{piece.resolve()}\n{piece.read_text()}")
+        with self.no_cmake() as environment:  # it is there, and what it was made from has not changed
+            self.assertEqual(self.check("ch08", **environment), (code, out))
+        done = self.run_tool("see", "ch08/ex01")
+        self.assertIn("chapters/ch08_triples/scenes/three.yaml\n--mine\n--out\nout/ch08_ex01\nits results: out/ch08_ex01\n", done.stdout)
+        piece.write_text(piece.read_text().replace("3 *", "2 *"))
+        self.assertIn(NONE, self.check("ch08")[1])
+        self.assertEqual(self.mine(), {"ch08_ex01.refused"})
+        self.assertEqual((self.root / "build/mine/ch08_ex01.refused").read_text(), "0/1 tests pass\n")
+        piece.write_text("this is no C++\n")
+        self.check("ch08")
+        self.assertEqual((self.root / "build/mine/ch08_ex01.refused").read_text(), "does not compile\n")
+        piece.write_text(PIECE_STUB)
+        self.check("ch08")
+        self.assertEqual(self.mine(), set())
+
+    def test_a_change_that_does_not_fit_is_told(self):
+        change = self.root / "tests/exercises/ch08/mutants/ex01_triple.added.change"
+        made = [sys.executable, ROOT / "common/cmake/make_mutant.py", self.root, change,
+                self.root / "solutions/ch08/ex01_triple.cpp", self.root / "mutant.cpp"]
+        self.assertEqual(subprocess.run(made, check=False).returncode, 0)
+        self.assertIn("return 3 + x;", (self.root / "mutant.cpp").read_text())
+        former = change.read_text()
+        self.addCleanup(lambda: change.write_text(former))
+        change.write_text(former.replace("return 3 *", "return x *"))
+        done = subprocess.run(made, capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("stands 0 times in", done.stderr)
+
     def test_not_started(self):
         code, out = self.check("ch07/ex01")
         self.assertEqual(code, 1)
-        self.assertEqual(out, f"ch07/ex01  ex01_double              not started\n           {TASK}\n0 of 1 exercise done\n")
+        self.assertEqual(out, f"ch07/ex01  ex01_double              not started\n           {TASK}\n0 of 1 exercise done\n{NONE}\n")
 
     def test_some_tests_pass(self):
         self.solve("return x * x;")
@@ -135,11 +198,12 @@ class CheckTest(unittest.TestCase):
         self.assertEqual(code, 0)
         self.assertIn("ex01_double              done\n", out)
         self.assertIn("compare with solutions/ch07/ex01_double.cpp", out)
+        self.assertEqual((self.build / "bin/this_exercise").resolve(), (self.build / "bin/ch07_ex01_exercise").resolve())
         self.assertIn("see what it does: ./run see ch07/ex01\n", out)
         self.assertIn("next, ch07/ex02: write exercises/ch07/ex02_half.cpp; the task is 7.2 in exercises/ch07/README.md\n", out)
         code, out = self.check()  # the other one is not
         self.assertEqual(code, 1)
-        self.assertIn("1 of 2 exercises done", out)
+        self.assertIn("1 of 3 exercises done", out)
 
     def test_the_pasted_solution_is_done(self):
         shutil.copy(self.root / "solutions/ch07/ex01_double.cpp", self.root / "exercises/ch07/ex01_double.cpp")
@@ -185,11 +249,11 @@ class CheckTest(unittest.TestCase):
     def test_names(self):
         self.assertIn("0 of 2 exercises done", self.check("ch07")[1])
         self.assertIn("0 of 1 exercise done", self.check("ch07/ex02_half")[1])
-        for wrong in ("ch08", "ch07/ex03", "ex01"):
+        for wrong in ("ch09", "ch07/ex03", "ex01"):
             for tool in ("check", "see"):
                 done = self.run_tool(tool, wrong, build=False)
                 self.assertEqual((done.returncode, done.stderr),
-                                 (2, f"{tool}: no exercise '{wrong}'; there are: ch07/ex01, ch07/ex02\n"))
+                                 (2, f"{tool}: no exercise '{wrong}'; there are: ch07/ex01, ch07/ex02, ch08/ex01\n"))
         for several in ([], ["ch07"]):
             done = self.run_tool("see", *several, build=False)
             self.assertEqual(done.returncode, 2)

@@ -14,6 +14,7 @@ sys.path.insert(0, str(PLOTS))
 sys.dont_write_bytecode = True
 import text_compare  # noqa: E402
 import text_lint  # noqa: E402
+import text_words  # noqa: E402
 import texts  # noqa: E402
 
 TEXT = """# Chapter 1
@@ -53,6 +54,12 @@ tolerance,steps,time [s]
 <!-- times: date +%N -->
 123
 <!-- /times -->
+
+## Symbols
+
+| symbol | is | unit |
+|---|---|---|
+| $v$ | the speed | m/s |
 """
 ENGINE = "#!/bin/sh\nprintf 'tolerance,steps,time [s]\\n1e-3,6,0.33333333333\\n1e-6,12,0.66666666667\\n'\n"
 SOURCE = """int add(int a, int b) {
@@ -192,6 +199,38 @@ class TextsTest(unittest.TestCase):
                 (self.chapter / "README.md").write_text(TEXT)
                 self.replace(old, new)
                 self.assert_told("README.md:3", told)
+
+    def test_a_symbol_that_the_table_lacks(self):
+        self.replace("The speed is $v$", "The speed is $v$ at $`t_{i}^{2}`$ in $\\Omega$")
+        faults = texts.check(self.root, self.bin)
+        self.assertEqual([fault.partition("README.md")[2] for fault in faults],
+                         [":3: Omega is in no row of the chapter's ## Symbols", ":3: t is in no row of the chapter's ## Symbols"])
+        self.replace("| $v$ |", "| $v$, $t_0$, $\\Omega$ |")
+        self.assertEqual(texts.check(self.root, self.bin), [])
+        (self.chapter / "MORE.md").write_text("# More\n\n$q$\n")
+        self.assert_told("MORE.md:3: q is in no row")
+        self.replace("## Symbols", "## Letters")
+        self.assert_told("README.md: no table under ## Symbols")
+
+    def test_a_core_path_that_is_too_long(self):
+        readme = (self.chapter / "README.md").read_text()
+        room = text_words.MOST_WORDS - text_words.core_words(readme)
+        self.replace("The speed is", "word " * room + "The speed is")
+        self.assertEqual(texts.check(self.root, self.bin), [])
+        for free in ("<details>\n<summary>Ours</summary>\n\nmore words\n\n</details>\n", "```\nsome code\n```\n", "<!-- a comment -->\n",
+                     "| a | b |\n|---|---|\n| in a | table |\n", "![a drawing of](curve.svg)\n"):
+            self.replace("## Symbols", f"{free}\n## Symbols")
+        self.assertEqual(texts.check(self.root, self.bin), [])
+        self.replace("word word", "word word word")
+        self.assert_told(f"README.md: {text_words.MOST_WORDS + 1} words")
+
+    def test_words_that_the_glossary_calls_old(self):
+        (self.root / "chapters/GLOSSARY.md").write_text("# Glossary\n\n## Not these\n\n| not | but |\n|---|---|\n| crowd | pile |\n")
+        self.assertEqual(texts.check(self.root, self.bin), [])
+        self.replace("The speed is", "`crowd`, crowded; the speed is")
+        self.assertEqual(texts.check(self.root, self.bin), [])
+        self.replace("the speed is", "A Crowd, whose speed is")
+        self.assert_told("README.md:3: 'Crowd': the glossary says pile")
 
     def test_mathematics_that_github_mangles(self):
         for wrong, told in (("$$v$$", "use a ```math block"), ("$2\\,v$", "eats the backslash"), ("$\\{v\\}$", "eats the backslash"),

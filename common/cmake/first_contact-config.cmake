@@ -1,0 +1,13 @@
+# What find_package(first_contact) reads: the libraries that ours need, then ours.
+include(CMakeFindDependencyMacro)
+find_dependency(Eigen3 NO_MODULE)
+find_dependency(yaml-cpp)
+find_dependency(fmt)
+find_dependency(CLI11)
+find_dependency(nlohmann_json)
+find_dependency(Qhull)
+if(NOT TARGET yaml-cpp::yaml-cpp)  # the name before yaml-cpp 0.8
+  add_library(yaml-cpp::yaml-cpp INTERFACE IMPORTED)
+  set_target_properties(yaml-cpp::yaml-cpp PROPERTIES INTERFACE_LINK_LIBRARIES yaml-cpp)
+endif()
+include(${CMAKE_CURRENT_LIST_DIR}/first_contact.cmake)
