@@ -1,4 +1,4 @@
-#include "ch06_friction/facet_study.hpp"
+#include "ch06_friction/study/facet_study.hpp"
 
 #include <algorithm>
 #include <cmath>

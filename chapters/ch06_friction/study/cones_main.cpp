@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "ch03_impulse_lcp/matrix_market.hpp"
-#include "ch06_friction/facet_study.hpp"
-#include "ch06_friction/tower_study.hpp"
+#include "ch06_friction/study/facet_study.hpp"
+#include "ch06_friction/study/tower_study.hpp"
 
 namespace {
 

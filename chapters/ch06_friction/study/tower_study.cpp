@@ -1,4 +1,4 @@
-#include "ch06_friction/tower_study.hpp"
+#include "ch06_friction/study/tower_study.hpp"
 
 #include <cmath>
 
