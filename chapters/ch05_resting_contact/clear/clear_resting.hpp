@@ -1,5 +1,5 @@
 // Chapter 5's step in its clear form: the same plans as resting.hpp, found in the plainest way. For convex bodies, with gravity
-// alone. It runs on the piece of exercise 5.7.
+// alone. It runs on the pieces of exercises 3.6 and 5.7.
 #pragma once
 
 #include <vector>
@@ -51,7 +51,8 @@ class ClearResting : public world::Planner {
   void follow(world::World& world, const ClearPlan& made);
   void report_impulses(const std::vector<world::ImpactRecord>& records, double share);
 
-  clear::Pieces pieces_;
+  clear::RestingStepFunction* resting_step_;  // the pieces
+  clear::LcpFunction solve_lcp_;
   Contacts contacts_;
   IslandFinder islands_;
   std::vector<int> no_piles_;  // of each body: it is in none
