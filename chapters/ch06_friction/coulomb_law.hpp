@@ -38,7 +38,7 @@ class CoulombLaw : public resting::NormalLaw {
   double holds_until(const ContactSet& mean, std::span<const RigidBody> now, std::span<const Vec3> impulses,
                      double length) const override;
 
- private:
+ protected:
   double mu(const ContactSet& set, const lcp::Contact& contact) const;
   bool rubs(const ContactSet& set);
   void start(const ContactSet& set, std::span<const Vec3> offsets, std::span<const Vec3> impulses,

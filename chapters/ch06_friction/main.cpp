@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include "ch05_resting_contact/rest_run.hpp"
+#include "ch06_friction/clear/law.hpp"
+#include "ch06_friction/clear/pieces.hpp"
 #include "ch06_friction/coulomb_law.hpp"
 
 namespace {
@@ -47,8 +49,13 @@ std::vector<Effect> explain(const Scene& scene) {
   return list;
 }
 
-int run(const Scene& scene, const RunContext& context, Summary& summary) {
+// Runs on the pieces if --clear or --mine asks for it.
+int run(const Scene& scene, const RunContext& context, Summary& summary,
+        const friction::clear::Pieces& pieces) {
   if (!friction::asks_for_friction(scene)) {
+    if (context.clear)
+      throw InputError(
+          "--clear and --mine: nothing rubs in this scene; give it the key 'friction', or run it with chapter 5");
     if (scene.envelope) return resting::run_scene(scene, context, summary);
     return world::run_scene(scene, context, summary, world::step, true);
   }
@@ -57,6 +64,11 @@ int run(const Scene& scene, const RunContext& context, Summary& summary) {
   // ANCHOR: law
   options.law = [](world::World& world) { return std::make_unique<friction::CoulombLaw>(world); };
   // ANCHOR_END: law
+  int unsolved = 0;
+  if (context.clear)
+    options.law = [&](world::World& world) {
+      return std::make_unique<friction::clear::ClearLaw>(world, pieces.solve_contact, unsolved);
+    };
   double work = 0;
   options.columns = [&work](const resting::RestReport& last) {
     world::MoreColumns more;
@@ -80,6 +92,11 @@ int run(const Scene& scene, const RunContext& context, Summary& summary) {
   };
   const int code = resting::run_scene(with_envelope(scene), context, summary, options);
   summary.add("work of friction", work, "J");
+  if (context.clear) {
+    summary.add_note("islands are solved by",
+                     "sweeps over their contacts, one after the other, and by nothing else");
+    summary.add("islands that sweeps did not solve (piles from then on)", std::int64_t{unsolved});
+  }
   return code;
 }
 
@@ -94,6 +111,7 @@ void check(const Scene& scene) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  friction::clear::Pieces pieces;
   Chapter chapter;
   chapter.number = 6;
   chapter.name = "ch06_friction";
@@ -103,7 +121,10 @@ int main(int argc, char** argv) {
       "or where it is 0, everything is as in chapter 5, to the byte.";
   chapter.example = "build/bin/ch06_friction chapters/ch06_friction/scenes/slope.yaml";
   chapter.explain = explain;
-  chapter.run = run;
+  chapter.run = [&](const Scene& scene, const RunContext& context, Summary& summary) {
+    return run(scene, context, summary, pieces);
+  };
   chapter.check = check;
+  chapter.pieces = slots(pieces);
   return run_program(argc, argv, chapter);
 }

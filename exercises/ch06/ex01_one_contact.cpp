@@ -2,10 +2,10 @@
 
 #include "common/todo.hpp"
 
-namespace fc::exercises {
+namespace fc::mine {
 
 Answer solve_contact(const Mat3& A, const Vec3& q, double mu) {
   FC_TODO("6.1");
 }
 
-}  // namespace fc::exercises
+}  // namespace fc::mine

@@ -12,7 +12,7 @@
 
 namespace {
 
-using namespace fc::exercises;
+using namespace fc::mine;
 using fc::Mat3, fc::Vec3;
 
 const char* name(Kind kind) {

@@ -1,17 +1,12 @@
 // Exercise 6.1: one contact with friction, exactly.
 #pragma once
 
-#include "common/types.hpp"
+#include "ch06_friction/clear/one_contact.hpp"
 
-namespace fc::exercises {
+namespace fc::mine {
 
-// What a contact does with an impulse of one instant.
-enum class Kind { open, stick, slip };
-
-struct Answer {
-  Kind kind = Kind::open;
-  Vec3 r = Vec3::Zero();  // N s: along the normal, and along both tangents
-};
+using friction::clear::Answer;  // r, N s: along the normal and two tangents; and which kind of answer it is
+using friction::clear::Kind;    // open, stick or slip
 
 // One contact that obeys Signorini and Coulomb. Vectors are (normal, tangent 1, tangent 2): three directions at right angles.
 //   A    1/kg, symmetric, positive semidefinite: an impulse r changes the velocity at the contact by A r. A direction of the
@@ -32,4 +27,4 @@ struct Answer {
 // Throws std::invalid_argument if mu < 0, or if any number is not finite.
 Answer solve_contact(const Mat3& A, const Vec3& q, double mu);
 
-}  // namespace fc::exercises
+}  // namespace fc::mine

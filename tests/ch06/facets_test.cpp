@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "ch06_friction/facet_study.hpp"
-#include "ch06_friction/tower_study.hpp"
+#include "ch06_friction/study/facet_study.hpp"
+#include "ch06_friction/study/tower_study.hpp"
 
 namespace fc::friction {
 namespace {
