@@ -330,7 +330,7 @@ TEST(Clear, KeepsTheLawsInRandomScenes) {
 // Piles take it long: only as many frames as a test has time for, and chapter 3's fast method.
 TEST(Clear, KeepsTheLawsInTheGallery) {
   fc::resting::clear::Pieces pieces;
-  pieces.lcp.dantzig = [](const fc::MatX& A, const fc::VecX& b, int) { return fc::lcp::solve({A, b}); };
+  pieces.world.lcp.dantzig = [](const fc::MatX& A, const fc::VecX& b, int) { return fc::lcp::solve({A, b}); };
   for (const auto& [name, frames] :
        {std::pair("mixed", 42), std::pair("heap", 40), std::pair("cylinders", 8)}) {
     Watched<ClearResting> watched(fc::read_scene({gallery(name), {}, {}, 5}), pieces);

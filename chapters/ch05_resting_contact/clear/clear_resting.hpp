@@ -1,5 +1,6 @@
 // Chapter 5's step in its clear form: the same plans as resting.hpp, found in the plainest way. For convex bodies, with gravity
-// alone. It runs on the pieces of exercises 3.6 and 5.7.
+// alone. It runs on the pieces of exercises 3.6 and 5.7; with world::put_on_pieces() chapter 4's
+// loop does on its own.
 #pragma once
 
 #include <vector>

@@ -6,7 +6,7 @@
 namespace fc::resting::clear {
 
 LcpFunction Pieces::solve_lcp() const {
-  return [solver = lcp::clear::solver_of(SolverSpec{}, lcp)](const MatX& A, const VecX& b, VecX& z) {
+  return [solver = lcp::clear::solver_of(SolverSpec{}, world.lcp)](const MatX& A, const VecX& b, VecX& z) {
     const lcp::LcpResult result = solver({A, b});
     if (result.status != lcp::Status::solved) return false;
     z = result.z;
@@ -15,7 +15,7 @@ LcpFunction Pieces::solve_lcp() const {
 }
 
 std::vector<PieceSlot> slots(Pieces& pieces) {
-  std::vector<PieceSlot> all = slots(pieces.lcp);
+  std::vector<PieceSlot> all = world::clear::slots(pieces.world);
   all.push_back(slot("ch05/ex07_resting_step", "the heart of a resting step", pieces.resting_step));
   return all;
 }
