@@ -12,7 +12,8 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 
-from style import BLUE, GREEN, ORANGE, PURPLE, Table, plot_main
+from sketch import DARK, arrow, ball, bare, body, note
+from style import BLUE, GREEN, GREY, ORANGE, PURPLE, Table, plot_main
 
 BOUNDS = {"naive": (ORANGE, "o-"), "directional": (GREEN, "s-"), "projected": (PURPLE, "x--"), "second_order": (BLUE, "o-")}
 
@@ -30,7 +31,7 @@ def first_touch() -> float:
 
 
 def draw_cost(run: Path) -> plt.Figure:
-    figure, (left, middle, right) = plt.subplots(1, 3, figsize=(11.5, 3.4))
+    figure, (left, middle, right) = plt.subplots(1, 3, figsize=(9.2, 3.5))
     exact = first_touch()
     for bound, (colour, line) in BOUNDS.items():
         plank = Table(run / f"plank.{bound}" / "sweep.csv")
@@ -42,18 +43,39 @@ def draw_cost(run: Path) -> plt.Figure:
         hulls = Table(run / f"hulls.{name}" / "sweep.csv")
         right.semilogx(hulls["ccd.tolerance"], [g / d for g, d in zip(hulls["GJK iterations"], hulls["distance calls"])],
                        "o-", ms=4, color=colour, label=label)
-    left.set(title="A tumbling plank: error", xlabel="advances", ylabel="time of contact too early by [s]", xlim=(0, None))
-    middle.set(title="200 pairs of hulls: advances", xlabel="tolerance [m]", ylabel="mean number of advances", ylim=(0, None))
-    right.set(title="The same: warm start", xlabel="tolerance [m]", ylabel="GJK iterations per distance", ylim=(0, None))
+    left.set(title="A tumbling plank", xlabel="advances", ylabel="time of contact too early by [s]", xlim=(0, None))
+    middle.set(title="200 pairs of hulls", xlabel="tolerance [m]", ylabel="mean number of advances", ylim=(0, None))
+    right.set(title="The same 200 pairs", xlabel="tolerance [m]", ylabel="GJK iterations per distance", ylim=(0, None))
     for axes in (middle, right):
         axes.invert_xaxis()
-    left.legend(title="motion bound", fontsize=7)
+    left.legend(title="motion bound", loc="upper right", handlelength=1.4, borderaxespad=0)
+    left.set_xlim(0, 27)
     right.legend(title="first simplex")
     return figure
 
 
+def draw_corner(axes: plt.Axes) -> None:
+    """What the two tables are about: the brick's corner, and the ball's path as seen from it."""
+    bare(axes, "The ball's path")
+    body(axes, [(0, 0), (-0.75, -0.85), (0.75, -0.85)])
+    note(axes, (0, -0.55), "corner of\nthe brick", DARK)
+    axes.plot([-1, 1], [0, 0], color=GREY, lw=1, ls=":")
+    ball(axes, (0, 0.3), 0.3, "none", BLUE)
+    angle = math.radians(35)
+    start = (-0.85 * math.cos(angle), 0.3 + 0.85 * math.sin(angle))
+    arrow(axes, start, (0, 0.3), BLUE)
+    axes.plot([-0.95, 0], [0.3, 0.3], color=GREY, lw=0.8, ls=":")
+    note(axes, (-0.62, 0.43), "angle", BLUE)
+    note(axes, (start[0], start[1] + 0.1), "a hit", BLUE)
+    ball(axes, (0.05, 1.5), 0.3, "none", ORANGE)
+    arrow(axes, (-0.8, 1.5), (0.9, 1.5), ORANGE)
+    note(axes, (-0.6, 1.62), "a miss", ORANGE)
+    axes.set(xlim=(-1.05, 1.05), ylim=(-0.95, 1.9))
+
+
 def draw_grazing(run: Path) -> plt.Figure:
-    figure, (left, right) = plt.subplots(1, 2, figsize=(8.6, 3.4))
+    figure, (scene, left, right) = plt.subplots(1, 3, figsize=(9.2, 3.4), width_ratios=(0.62, 1, 1))
+    draw_corner(scene)
     angles = Table(run / "angles.csv")["angle"]
     distances = Table(run / "distances.csv")["distance"]
     for bound, (colour, line) in BOUNDS.items():
@@ -65,7 +87,7 @@ def draw_grazing(run: Path) -> plt.Figure:
     for axes in (left, right):
         axes.invert_xaxis()
         axes.set_ylim(1, 3000)
-    left.legend(title="motion bound", fontsize=7)
+    left.legend(title="motion bound", handlelength=1.6)
     return figure
 
 

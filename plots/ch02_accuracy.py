@@ -18,7 +18,7 @@ SEARCHES = {"FAST's": ("FAST's", ORANGE), "boxes in lanes": ("ours, boxes in lan
 
 def draw(run: Path) -> plt.Figure:
     tolerance, approach = Table(run / "tolerance.csv"), Table(run / "approach.csv")
-    figure, (left, middle, right) = plt.subplots(1, 3, figsize=(11.5, 3.4))
+    figure, (left, middle, right) = plt.subplots(1, 3, figsize=(9.2, 3.9))
     for column, label, line in (("early_p95", "95 %", "s--"), ("early", "median", "o-")):
         left.loglog(tolerance["tolerance"], tolerance[column], line, ms=4, color=BLUE, label=label)
     left.set(title="Error", ylabel="time of contact too early by [s]")
@@ -36,7 +36,7 @@ def draw(run: Path) -> plt.Figure:
         axes.set_xlabel("tolerance / size of the model")
     for axes in (left, middle, right):
         axes.invert_xaxis()
-        axes.legend(fontsize=7, ncols=2 if axes is right else 1)
+        axes.legend(fontsize=8, ncols=1)
     right.set_ylim(3, None)
     return figure
 

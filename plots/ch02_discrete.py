@@ -17,7 +17,7 @@ LINES = {"far": "o-", "close": "s--"}
 
 def draw(run: Path, times: str | None = None) -> plt.Figure:
     table = Table(run / "discrete.csv")
-    figure, panels = plt.subplots(2, 3 if times else 2, figsize=(11.5 if times else 8.6, 6.2), layout="constrained")
+    figure, panels = plt.subplots(2, 3 if times else 2, figsize=(9.2 if times else 8.6, 7.0), layout="constrained")
     (missed, late), (contacts, cost) = panels[0][:2], panels[1][:2]
 
     def curve(axes, source, values, family, colour, label):
@@ -43,16 +43,18 @@ def draw(run: Path, times: str | None = None) -> plt.Figure:
             curve(panels[0][2], measured, measured["discrete_ns"] / 1000, family, ORANGE, "discrete")
             curve(panels[0][2], measured, measured["continuous_ns"] / 1000, family, BLUE, "continuous")
             curve(panels[1][2], measured, measured["continuous_ns"] / measured["discrete_ns"], family, GREEN, "ratio")
-        panels[0][2].set(title="Cost: time, on this machine", ylabel="time per frame, mean [µs]", yscale="log")
-        panels[1][2].set(title="Continuous / discrete, on this machine", ylabel="ratio of times per frame", yscale="log")
+        panels[0][2].set(title="Cost: time", ylabel="time per frame, mean [µs]", yscale="log")
+        panels[1][2].set(title="Continuous over discrete", ylabel="ratio of times per frame", yscale="log")
         panels[1][2].set_yticks([1, 2, 5, 10, 20, 50], ["1", "2", "5", "10", "20", "50"])
         panels[1][2].minorticks_off()
+    for axes in [cost, *([panels[0][2]] if times else [])]:  # room for the legend
+        axes.set_ylim(top=6 * axes.get_ylim()[1])
     for axes in panels.flat:
         axes.set_xscale("log", base=2)
         axes.set_xticks([1, 4, 16, 64, 256], ["1", "4", "16", "64", "256"])
         axes.set_xlabel("frames that the second is cut into")
-        axes.legend(fontsize=7)
-    contacts.legend(fontsize=7, loc="lower left", bbox_to_anchor=(0, 0.08))
+        axes.legend(fontsize=8)
+    contacts.legend(fontsize=8, loc="lower left", bbox_to_anchor=(0, 0.08))
     return figure
 
 

@@ -28,7 +28,7 @@ def curves(axes: plt.Axes, table: Table, values: np.ndarray, title: str, what: s
         x, y = table["triangles"][rows], values[rows]
         axes.loglog(x, y, line, ms=4, color=colour, label=f"{label}: power {power(x, y):.2f}")
     axes.set(title=title, xlabel="triangles of each model", ylabel=what)
-    axes.legend(fontsize=7.5)
+    axes.legend(fontsize=8)
 
 
 def draw(run: Path, times: str | None = None) -> plt.Figure:

@@ -38,7 +38,7 @@ def draw_levels(run: Path) -> plt.Figure:
     table = Table(run / "hulls.csv")
     levels, nodes, points = table["level"], table["node"], table.vectors("x", "y", "z")
     shown = sorted(set(levels))
-    figure, panels = plt.subplots(1, len(shown), figsize=(11.5, 2.6), sharex=True, sharey=True)
+    figure, panels = plt.subplots(1, len(shown), figsize=(9.2, 2.3), sharex=True, sharey=True)
     near, far = points[:, 2].max(), points[:, 2].min()
     for axes, level in zip(panels, shown):
         hulls = [points[(levels == level) & (nodes == n)] for n in sorted(set(nodes[levels == level]))]
@@ -47,7 +47,7 @@ def draw_levels(run: Path) -> plt.Figure:
         colours = [plt.cm.YlGnBu_r(0.15 + 0.75 * s) for s in shade]
         axes.add_collection(PolyCollection([np.round(outline(hull[:, :2]), 3) for hull in hulls], facecolors=colours,
                                            edgecolors="#333333", linewidths=0.35))
-        axes.set_title(f"level {int(level)}: {len(hulls)} hull{'s' if len(hulls) > 1 else ''}")
+        axes.set_title(f"{len(hulls)} hull{'s' if len(hulls) > 1 else ''}")
         axes.autoscale_view()
         axes.set_aspect("equal")
         axes.axis("off")
@@ -62,7 +62,7 @@ def draw_visits(run: Path) -> plt.Figure:
     for search in SEARCHES:
         rows = searches == search
         left[rows] = np.maximum(table["time"][rows & (fates == "reached")][0] - table["time"][rows], 1e-9)
-    figure, panels = plt.subplots(1, len(SEARCHES), figsize=(11.5, 3.7), sharex=True, sharey=True)
+    figure, panels = plt.subplots(1, len(SEARCHES), figsize=(9.2, 3.9), sharex=True, sharey=True)
     for axes, (search, title) in zip(panels, SEARCHES.items()):
         for fate, (colour, label) in FATES.items():
             rows = (searches == search) & (fates == fate)
@@ -73,8 +73,8 @@ def draw_visits(run: Path) -> plt.Figure:
                       alpha=1 if star else 0.7, mew=0, label=f"{label} ({rows.sum()})")
         axes.set(title=f"{title}: {(searches == search).sum():,} pairs", xscale="log", yscale="log",
                  xlabel="time left until the contact [s]", ylabel="radii of both nodes together [m]")
-    panels[0].legend(fontsize=7, loc="lower right")
-    panels[1].legend(fontsize=7, loc="lower left")
+    panels[0].legend(fontsize=8, loc="lower right")
+    panels[1].legend(fontsize=8, loc="lower left")
     panels[0].set_xlim(2, 5e-10)
     panels[0].set_xticks([1, 1e-2, 1e-4, 1e-6, 1e-9], ["1", "0.01", "$10^{-4}$", "$10^{-6}$", "0"])
     return figure

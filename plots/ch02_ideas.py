@@ -5,6 +5,7 @@ Reads RUN_DIR/ideas.csv of ch02_study --part ideas.
 
 import drawing_python  # noqa: F401  first: it finds a Python that can draw
 
+import sys
 from pathlib import Path
 
 import matplotlib.pyplot as plt
@@ -14,7 +15,7 @@ from style import BLUE, ORANGE, Table, plot_main
 
 FAMILIES = {"far": ("from afar", BLUE), "close": ("from close by", ORANGE)}
 LADDER = {  # as the table names them: what the figure says
-    "one step for all": "one step for all pairs,\nnaive bound, boxes",
+    "one step for all": "one step for all pairs, boxes",
     "directional bound": "+ directional bound",
     "second-order bound": "+ second-order bound",
     "own time per pair": "+ each pair has its own time",
@@ -47,23 +48,24 @@ def bars(axes: plt.Axes, table: Table, rows: dict[str, str], title: str) -> None
         axes.barh(y, median[places], 0.34, color=colour, label=label)
         axes.hlines(y, median[places], high[places], color=colour, lw=1)
         for at, i in zip(y, places):
-            axes.text(median[i] * 0.93, at, f"{int(median[i]):,}", va="center", ha="right", fontsize=6.5, color="white" if colour == BLUE else "black")
-    axes.set_yticks(range(len(rows)), rows.values(), fontsize=8)
+            axes.text(median[i] * 0.93, at, f"{int(median[i]):,}", va="center", ha="right", fontsize=8, color="white" if colour == BLUE else "black")
+    axes.set_yticks(range(len(rows)), rows.values(), fontsize=9)
     axes.invert_yaxis()
     axes.grid(False, axis="y")
     axes.set(xscale="log", title=title, xlabel="pairs of nodes and leaves per query")
 
 
-def draw(run: Path) -> plt.Figure:
-    table = Table(run / "ideas.csv")
-    figure, (left, right) = plt.subplots(1, 2, figsize=(11.5, 4.9), sharex=True)
-    bars(left, table, LADDER, "One idea after the other")
-    bars(right, table, OTHERS, "The ancestors, and ours with one idea exchanged")
-    low, high = left.get_xlim()
-    left.set_xlim(10, high * 2)
-    left.legend(title="bar: median, line: 95 %", title_fontsize=7.5, loc="lower right")
+def draw(run: Path, rows: dict[str, str], title: str) -> plt.Figure:
+    figure, axes = plt.subplots(figsize=(9.2, 0.9 + 0.42 * len(rows)))
+    bars(axes, Table(run / "ideas.csv"), rows, title)
+    axes.set_xlim(10, 2e6)
+    axes.legend(title="bar: median, line: 95 %", title_fontsize=8.5, loc="lower right")
     return figure
 
 
 if __name__ == "__main__":
-    plot_main(draw, "ch02_ideas", __doc__)
+    if "--ancestors" in sys.argv:
+        sys.argv.remove("--ancestors")
+        plot_main(lambda run: draw(run, OTHERS, "FAST's and C2A's searches, and best first with one idea exchanged"), "ch02_ancestors", __doc__)
+    else:
+        plot_main(lambda run: draw(run, LADDER, "One idea after the other"), "ch02_ideas", __doc__)

@@ -18,7 +18,7 @@ VOLUMES = {"sphere": (RED, "o-"), "swept sphere": (ORANGE, "o-"), "box": (GREEN,
 
 def draw(run: Path) -> plt.Figure:
     tightness, leaves = Table(run / "tightness.csv"), Table(run / "leaves.csv")
-    figure, (left, middle, right) = plt.subplots(1, 3, figsize=(11.5, 3.5))
+    figure, (left, middle, right) = plt.subplots(1, 3, figsize=(9.2, 4.1))
     names = np.array(tightness.text("volume"))
     for axes, column, title in ((left, "overhang", "In all directions"), (middle, "across", "Across the surface")):
         for name, (colour, line) in VOLUMES.items():
@@ -27,7 +27,7 @@ def draw(run: Path) -> plt.Figure:
         axes.set(title=f"How loose: {title.lower()}", xlabel="level (0: the root; leaves excepted)",
                  ylabel="mean overhang / node's radius", ylim=(0, None),
                  xticks=range(0, int(tightness["level"].max()) + 1, 2))
-    middle.legend(fontsize=7)
+    middle.legend(fontsize=8)
     motions, volumes, kinds, most = (np.array(leaves.text(c)) for c in ("motions", "volume", "leaves", "most_points"))
     for kind, colour in (("pieces", BLUE), ("triangles", ORANGE)):
         for family, line in (("far", "o-"), ("close", "s--")):
@@ -36,7 +36,7 @@ def draw(run: Path) -> plt.Figure:
             right.semilogy(range(rows.sum()), pairs, line, ms=4, lw=1.3, color=colour, label=f"{kind}, {family}")
     right.set_xticks(range(rows.sum()), most[rows])
     right.set(title="Hulls of few points", xlabel="points that an inner hull may have", ylabel="pairs per query, median")
-    right.legend(title="leaves, motions", title_fontsize=7.5, fontsize=7)
+    right.legend(title="leaves, motions", title_fontsize=8, fontsize=8)
     return figure
 
 

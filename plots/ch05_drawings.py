@@ -1,6 +1,6 @@
 """Chapter 5's drawings. Those that show bodies in contact are drawn from runs, the others from the formulas of the text.
 
-Reads RUN_DIR/bounces, ball, islands, frame, turned, touching, slope and stack: runs of chapter 5's scenes, as its text makes
+Reads RUN_DIR/knocked, bounces, ball, islands, frame, turned, touching, slope and stack: runs of chapter 5's scenes, as its text makes
 them. Writes one picture for each name into the folder --out.
 """
 

@@ -103,7 +103,7 @@ def bend(_: Path) -> plt.Figure:
     foot = distance * np.cos(turn) * normal
     scene.plot([0, foot[0]], [distance, foot[1]], color=RED, lw=1, ls="--")
     note(scene, (0.08, 0.5 * distance - 0.02), "ℓ", DARK, ha="left")
-    scene.plot([0, foot[0]], [0, foot[1]], color=RED, lw=3)
+    scene.plot([0, foot[0]], [0, foot[1]], color=RED, lw=3.5, zorder=6)
     note(scene, foot + [-0.16, -0.3], "ℓ cos ωT", RED, ha="right")
     arrow(scene, (1.45, 0.05), 1.48 * (rotation(turn) @ [1, 0]), BLUE, 1.2, connectionstyle="arc3,rad=0.15")
     note(scene, (1.66, 0.26), "ω", BLUE)

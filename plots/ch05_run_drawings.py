@@ -166,6 +166,45 @@ def islands(runs: Path) -> plt.Figure:
     return figure
 
 
+def knocked(runs: Path) -> plt.Figure:
+    events, plans = Table(runs / "knocked/events/poses.csv"), Table(runs / "knocked/plans/poses.csv")
+    hit, struck, boxes, size = 7, 2, 6, np.array([1.2, 0.5])  # the numbers of the ball and of the box that it hits
+    figure = plt.figure(figsize=(9.2, 4.7))
+    grid = figure.add_gridspec(2, 4, height_ratios=(1.25, 1))
+    for column, (poses, time, title) in enumerate(((events, 1.2, "Chapter 4, after 1.2 s"), (plans, 0.2, "With plans, after 0.2 s"),
+                                                   (plans, 0.45, "0.45 s"), (plans, 1.2, "1.2 s"))):
+        axes = figure.add_subplot(grid[0, column])
+        bare(axes, title)
+        axes.add_patch(plt.Rectangle((-2, -0.2), 6, 0.2, fc="#D8D8D8", ec="none"))
+        axes.plot([-2, 4], [0, 0], color=DARK, lw=1.3)
+        now = np.abs(poses["t"] - time) < 1e-6
+        for number in range(1, boxes + 1):
+            this = now & (poses["body"] == number)
+            # A turn about y is clockwise, as seen with x to the right and z up.
+            angle = -2 * np.arctan2(poses["qy"][this][0], poses["qw"][this][0])
+            face, edge = ("#FFE9BF", ORANGE) if number == struck else ("#CFE3F1", BLUE)
+            body(axes, box((poses["px"][this][0], poses["pz"][this][0]), size, angle), face, edge)
+        this = now & (poses["body"] == hit)
+        ball(axes, (poses["px"][this][0], poses["pz"][this][0]), 0.25, "white", RED)
+        axes.set(xlim=(-1.95, 2.35), ylim=(-0.2, 3.1))
+    for column, title, table, name in ((0, "Height of the top box [m]", "poses.csv", "pz"), (2, "Lost time, summed up [s]", "steps.csv", "lost_time")):
+        axes = figure.add_subplot(grid[1, column:column + 2])
+        for run, colour in (("events", GREY), ("plans", BLUE)):
+            data = Table(runs / "knocked" / run / table)
+            of_top = data["body"] == boxes if name == "pz" else np.ones(len(data), bool)
+            axes.plot(data["t"][of_top], data[name][of_top] if name == "pz" else np.cumsum(data[name]), color=colour, lw=2)
+        axes.set(title=title, xlabel="t [s]", xlim=(0, 1.22))
+        if name == "pz":
+            axes.set(ylim=(2.15, 2.85))
+            note(axes, (0.9, 2.69), "chapter 4", GREY)
+            note(axes, (0.9, 2.31), "with plans", BLUE)
+        else:
+            axes.set(ylim=(-0.1, 1.3))
+            note(axes, (0.62, 0.85), "chapter 4", GREY, ha="right")
+            note(axes, (0.9, 0.1), "with plans", BLUE)
+    return figure
+
+
 def frame(runs: Path) -> plt.Figure:
     contacts = Table(runs / "frame/contacts.csv")
     end = Table(runs / "frame/steps.csv")["t"][-1]
@@ -263,5 +302,5 @@ def balance(runs: Path) -> plt.Figure:
     return figure
 
 
-DRAWINGS = {"zeno": zeno, "last_bounce": last_bounce, "clipping": clipping, "islands": islands, "frame": frame,
+DRAWINGS = {"knocked": knocked, "zeno": zeno, "last_bounce": last_bounce, "clipping": clipping, "islands": islands, "frame": frame,
             "correction": correction, "balance": balance}

@@ -18,7 +18,8 @@ left right big Big bigl bigr Bigl Bigr lvert rvert lVert rVert mid vert Vert lan
 array aligned ldots cdots vdots ddots dots hat bar dot ddot tilde vec overline underline underbrace overbrace mathbf boldsymbol mathcal mathbb mathsf top
 bot perp parallel pm mp infty partial nabla circ ast star prime forall exists land lor neg colon displaystyle textstyle hline limits nolimits bmod ll gg
 propto setminus emptyset widehat widetilde mathop operatorname mathrm text mathit tag not oplus otimes wedge vee cong succeq preceq succ prec sphericalangle
-angle deg stackrel overset underset phantom hspace vspace smallmatrix substack label tau_ Longrightarrow longrightarrow""".split())
+angle deg stackrel overset underset phantom hspace vspace smallmatrix substack label Longrightarrow longrightarrow ni hookrightarrow""".split())
+INDICES = {"i", "j", "k", "O"}  # counters, and the order of a cost: nobody asks what they are
 WORDS_INSIDE = re.compile(r"\\(?:text|textrm|textit|mathrm|operatorname|tag|begin|end|label|mathop)\*?\s*\{[^{}]*\}")
 
 
@@ -43,7 +44,7 @@ def symbols(formula: str) -> set[str]:
         formula = re.sub(rf"\{mark}\s*(?:\\[A-Za-z]+|\{{(?:[^{{}}]|\{{[^{{}}]*\}})*\}}|[^\s\\{{])", " ", formula)
     commands = {name for name in re.findall(r"\\([A-Za-z]+)", formula) if name not in NO_SYMBOLS}
     letters = set(re.findall(r"[A-Za-z]", re.sub(r"\\[A-Za-z]+", " ", formula)))
-    return commands | letters
+    return (commands | letters) - INDICES
 
 
 def formulas(text: str) -> list[tuple[int, str]]:

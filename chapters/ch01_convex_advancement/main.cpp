@@ -1,12 +1,29 @@
 // Chapter 1: the first contact of two moving convex bodies, by conservative advancement.
 #include "ch01_convex_advancement/advance.hpp"
+#include "ch01_convex_advancement/clear/pieces.hpp"
 #include "ch01_convex_advancement/query_run.hpp"
+#include "common/errors.hpp"
 
 namespace {
 
 using namespace fc;
 
-int run(const Scene& scene, const RunContext& context, Summary& summary) {
+// What the clear version does not have.
+void check_clear(const Scene& scene) {
+  if (scene.linear)
+    throw InputError(*scene.mark("linear"),
+                     "corners that fly straight have no clear version; run without --clear and --mine");
+  if (scene.mark("ccd.bound") && scene.ccd.bound != "directional")
+    throw InputError(*scene.mark("ccd.bound"),
+                     "the clear version has one motion bound, directional; write that, "
+                     "or run without --clear and --mine");
+  if (scene.mark("ccd.warm_start"))
+    throw InputError(*scene.mark("ccd.warm_start"),
+                     "the clear version has no warm start; remove it, or run without --clear and --mine");
+}
+
+int run(const Scene& scene, const RunContext& context, const ca::clear::Pieces& pieces, Summary& summary) {
+  if (context.clear) check_clear(scene);
   if (scene.linear) {
     const std::vector<ca::LinearQuery> queries = ca::linear_queries(scene);
     ca::run_queries(
@@ -26,7 +43,8 @@ int run(const Scene& scene, const RunContext& context, Summary& summary) {
   ca::run_queries(
       scene, shapes, ca::query_motions(scene, shapes),
       [&](const ca::Motion& motion_a, const ca::Motion& motion_b, const ca::AdvanceOptions& options) {
-        return ca::advance(a, motion_a, b, motion_b, options);
+        return context.clear ? pieces.advance(a, motion_a, b, motion_b, options, pieces)
+                             : ca::advance(a, motion_a, b, motion_b, options);
       },
       context, summary);
   return 0;
@@ -63,7 +81,11 @@ int main(int argc, char** argv) {
       "build/bin/ch01_convex_advancement chapters/ch01_convex_advancement/scenes/spinning_box.yaml "
       "--certificate";
   chapter.explain = explain;
-  chapter.run = run;
+  ca::clear::Pieces pieces;
+  chapter.pieces = ca::clear::slots(pieces);
+  chapter.run = [&pieces](const Scene& scene, const RunContext& context, Summary& summary) {
+    return run(scene, context, pieces, summary);
+  };
   chapter.check = check;
   return run_program(argc, argv, chapter);
 }

@@ -33,13 +33,6 @@ Motion::Motion(const RigidBody& body, const Vec3& acceleration_world)
   if (spin_rate > 0) spin_axis = spin / spin_rate;
 }
 
-void Motion::turn_freely(const PrincipalInertia& inertia) {
-  const TorqueFree turning(inertia, rotation, spin);
-  free = turning.constant_spin() ? nullptr : std::make_shared<TorqueFree>(turning);
-  free_start = 0;
-  free_rate = 1;
-}
-
 Mat3 Motion::rotation_at(double t) const {
   if (free) return free->rotation_at(free_time(t));
   return spin_rate == 0 ? rotation

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <memory>
 
-#include "ch01_convex_advancement/torque_free.hpp"
 #include "common/rigid_body.hpp"
 #include "common/types.hpp"
 
@@ -20,6 +19,21 @@ inline double decayed_time(double k, double t) {
 }
 double decayed_square(double k, double t);
 
+// How a body turns whose spin is not constant, for all times t (s) before and after 0. Chapter 4 has such bodies; this chapter
+// asks no more of them than this.
+class VaryingSpin {
+ public:
+  virtual ~VaryingSpin() = default;
+  virtual Mat3 rotation_at(double t) const = 0;  // body axes to world axes
+  virtual Vec3 spin_at(double t) const = 0;      // rad/s, world axes
+  // Bounds for all time: |w| and, for a unit n that stands still in the world, |n x w|, in rad/s; |dw/dt| in rad/s^2; and how
+  // far w strays from an axis that stands still, in rad/s.
+  virtual double spin_bound() const = 0;
+  virtual double turning_bound(const Vec3& n) const = 0;
+  virtual double spin_change_bound() const = 0;
+  virtual double across_bound() const = 0;
+};
+
 // A body that flies: its centre of mass with constant acceleration, its axes with constant spin or freely;
 // both may decay by drag.
 //   x(t) = position + velocity t + acceleration t^2/2
@@ -31,22 +45,19 @@ double decayed_square(double k, double t);
 // and a torque of -k times the angular momentum (k = spin_drag) lets the body turn as it would without, but
 // slower and slower: after t it is where it would have been after s(t), with e^(-kt) of the spin.
 struct Motion {
-  Vec3 position = Vec3::Zero();            // m, the centre of mass at t = 0, world
-  Mat3 rotation = Mat3::Identity();        // shape axes to world axes at t = 0
-  Vec3 velocity = Vec3::Zero();            // m/s at t = 0
-  Vec3 acceleration = Vec3::Zero();        // m/s^2
-  Vec3 spin = Vec3::Zero();                // rad/s, world axes; at t = 0, if it changes
-  Vec3 spin_axis = Vec3::UnitZ();          // spin / |spin|
-  double spin_rate = 0;                    // |spin|
-  std::shared_ptr<const TorqueFree> free;  // none: the spin is constant. Shared: a motion is copied often
-  double free_start = 0, free_rate = 1;    // s, and 1: where on its free motion the body is, and how fast
-  double drag = 0, spin_drag = 0;          // 1/s
+  Vec3 position = Vec3::Zero();             // m, the centre of mass at t = 0, world
+  Mat3 rotation = Mat3::Identity();         // shape axes to world axes at t = 0
+  Vec3 velocity = Vec3::Zero();             // m/s at t = 0
+  Vec3 acceleration = Vec3::Zero();         // m/s^2
+  Vec3 spin = Vec3::Zero();                 // rad/s, world axes; at t = 0, if it changes
+  Vec3 spin_axis = Vec3::UnitZ();           // spin / |spin|
+  double spin_rate = 0;                     // |spin|
+  std::shared_ptr<const VaryingSpin> free;  // none: the spin is constant. Shared: a motion is copied often
+  double free_start = 0, free_rate = 1;     // s, and 1: where on its free motion the body is, and how fast
+  double drag = 0, spin_drag = 0;           // 1/s
 
   Motion() = default;
   explicit Motion(const RigidBody& body, const Vec3& acceleration_world = Vec3::Zero());
-  // From here on no torque acts: the spin follows Euler's equations. Of a body that this does not change (a
-  // ball, or one that spins about a principal axis) nothing is changed.
-  void turn_freely(const PrincipalInertia& inertia);
 
   Mat3 rotation_at(double t) const;
   Vec3 position_at(double t) const;

@@ -1,6 +1,8 @@
 // ch01_replay: checks the certificates that chapter 1's executable wrote.
+#include "ch01_convex_advancement/clear/pieces.hpp"
 #include "ch01_convex_advancement/query_run.hpp"
 #include "ch01_convex_advancement/replay_run.hpp"
+#include "common/errors.hpp"
 
 namespace {
 
@@ -25,6 +27,31 @@ ca::ReplayQuestions questions_of(const Scene& scene, const std::filesystem::path
           }};
 }
 
+// The same, asked of the checker of exercise 1.10.
+ca::ReplayQuestions clear_questions_of(const Scene& scene, const ca::clear::Pieces& pieces) {
+  if (scene.linear)
+    throw InputError(*scene.mark("linear"),
+                     "corners that fly straight have no clear checker; leave out --clear");
+  const std::vector<Shape> shapes = build_shapes(scene, false);
+  const auto core_of = [&](int body) {
+    const Shape& shape = shapes[scene.bodies[body].shape];
+    return std::pair{std::make_shared<ca::ConvexCore>(shape.core.vertices, shape.disks), shape.radius};
+  };
+  auto queries = ca::query_motions(scene, shapes);
+  const std::size_t count = queries.size();
+  return {count,
+          [=, a = core_of(0), b = core_of(1), interval = scene.interval, check = pieces.check_certificate,
+           queries = std::move(queries)](std::size_t q, const auto& answer, const auto& rows) {
+            std::vector<ca::Refusal> wrong;
+            std::string what = ca::replay_answer(interval, answer, !rows.empty());
+            if (what.empty())
+              what = check(rows, a.first->convex(a.second), queries[q].a, b.first->convex(b.second),
+                           queries[q].b, answer.toc * interval);
+            if (!what.empty()) wrong.push_back({-1, what});
+            return wrong;
+          }};
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -41,5 +68,10 @@ int main(int argc, char** argv) {
       "--certificate\n"
       "  build/bin/ch01_replay chapters/ch01_convex_advancement/scenes/spinning_box.yaml out/spinning_box";
   program.questions = questions_of;
+  ca::clear::Pieces pieces;
+  program.clear_questions = [&](const Scene& scene, const std::filesystem::path&) {
+    return clear_questions_of(scene, pieces);
+  };
+  program.pieces = {ca::clear::slots(pieces).back()};
   return ca::run_replay(argc, argv, program);
 }

@@ -18,7 +18,7 @@ enum ExitCode { proved = 0, bad_input = 2, refused = 3 };
 struct Arguments {
   SceneSource source;
   std::filesystem::path run;
-  bool quiet = false;
+  bool quiet = false, clear = false, mine = false;
   std::string help;  // not empty: asked for
 };
 
@@ -34,6 +34,11 @@ Arguments parse(int argc, char** argv, const ReplayProgram& program) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->type_name("KEY.PATH=VALUE");
   app.add_flag("--quiet", arguments.quiet, "Print nothing but what is refused");
+  if (program.clear_questions) {
+    CLI::Option* clear = app.add_flag("--clear", arguments.clear, "Check with the clear version of the text");
+    app.add_flag("--mine", arguments.mine, "As --clear, with your own checker if it passes ./run check")
+        ->excludes(clear);
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
@@ -115,7 +120,16 @@ RunFiles read_run(const std::filesystem::path& folder, std::size_t asked) {
 
 int check(const Arguments& arguments, const ReplayProgram& program) {
   const Scene scene = read_scene(arguments.source);
-  const ReplayQuestions questions = program.questions(scene, arguments.run);
+  std::string whose;
+  if (arguments.mine) {
+    take_mine(program.pieces, mine_folder(),
+              [](const std::string& line) { fmt::print(stderr, "{}\n", line); });
+    whose = ", by your checker";
+  } else if (arguments.clear) {
+    whose = ", by the clear checker";
+  }
+  const ReplayQuestions questions =
+      (whose.empty() ? program.questions : program.clear_questions)(scene, arguments.run);
   RunFiles run = read_run(arguments.run, questions.count);
   std::vector<std::string> lines;
   for (const auto& [line, what] : run.wrong)
@@ -132,8 +146,8 @@ int check(const Arguments& arguments, const ReplayProgram& program) {
   }
   for (const std::string& line : lines) fmt::print(stderr, "{}\n", one_line(line));
   if (!arguments.quiet)
-    fmt::print("{}: {} queries, {} certificate rows, {} refused\n", arguments.run.string(), questions.count,
-               run.certificate.rows.size(), lines.size());
+    fmt::print("{}: {} queries, {} certificate rows, {} refused{}\n", arguments.run.string(), questions.count,
+               run.certificate.rows.size(), lines.size(), whose);
   return lines.empty() ? proved : refused;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ch01_convex_advancement/replay.hpp"
+#include "common/pieces.hpp"
 #include "common/scene.hpp"
 
 namespace fc::ca {
@@ -23,7 +24,11 @@ struct ReplayQuestions {
 struct ReplayProgram {
   int chapter;
   std::string purpose, example;  // for --help
-  std::function<ReplayQuestions(const Scene&, const std::filesystem::path& run)> questions;
+  using Ask = std::function<ReplayQuestions(const Scene&, const std::filesystem::path& run)>;
+  Ask questions;
+  // With --clear and --mine: replayed by a piece that a learner may write. None: there is no such option.
+  Ask clear_questions = {};
+  std::vector<PieceSlot> pieces = {};
 };
 
 // Reads SCENE and RUN_DIR from the command line, replays every query, and writes a line on standard error for

@@ -12,6 +12,10 @@
 
 namespace fc::hulls {
 
+namespace clear {
+struct Pieces;
+}
+
 // What first_reach looks for: the first time at which the gap has come down to about `target`.
 struct ReachOptions {
   double interval = 1;      // s
@@ -46,13 +50,15 @@ struct Waiting {
   NodeId a, b;      // nodes; leaves are ~leaf
 };
 
-// What a search needs memory for. Kept from query to query it allocates nothing.
+// What a search is given beside the query, and needs memory for. Kept from query to query it allocates nothing.
 struct SearchMemory {
   std::vector<Waiting> queue;
   // Temporal coherence, for queries of the same two models one after the other: the nodes of the leaves that
   // met last.
   bool coherent = false;
   NodeId last_a = -1, last_b = -1;
+  // None: the search in boxes. Else these pieces search, in models that have hulls (add_hulls, hull_model.hpp).
+  const clear::Pieces* pieces = nullptr;
   ca::AdvanceResult* certificate = nullptr;  // the rows of every advance go there, if anywhere
 };
 

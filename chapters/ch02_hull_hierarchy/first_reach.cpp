@@ -6,6 +6,7 @@
 #include "ch02_hull_hierarchy/advance.hpp"
 #include "ch02_hull_hierarchy/box_steps.hpp"
 #include "ch02_hull_hierarchy/model_distance.hpp"
+#include "ch02_hull_hierarchy/reach_by_pieces.hpp"
 #include "ch02_hull_hierarchy/steps.hpp"
 
 namespace fc::hulls {
@@ -249,6 +250,7 @@ struct Search {
 
 Reach first_reach(const Model& a, const ca::Motion& motion_a, const Model& b, const ca::Motion& motion_b,
                   const ReachOptions& options, SearchMemory& memory) {
+  if (memory.pieces != nullptr) return reach_by_pieces(a, motion_a, b, motion_b, options, *memory.pieces);
   Search search{a, motion_a, b, motion_b, options, memory};
   search.run();
   return search.reach;

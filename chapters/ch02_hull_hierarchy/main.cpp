@@ -4,6 +4,7 @@
 #include "ch02_hull_hierarchy/advance.hpp"
 #include "ch02_hull_hierarchy/hull_model.hpp"
 #include "common/convex_hull.hpp"
+#include "common/errors.hpp"
 #include "common/stopwatch.hpp"
 
 namespace {
@@ -18,20 +19,33 @@ void record_levels(MotionRecording& motion, int shape, const hulls::HullModel& m
     std::vector<int> next;
     for (const int n : level) {
       const hulls::HullNode& node = model.tree.nodes[n];
-      if (const auto hull = hull_mesh(model.tree.hull(node))) motion.add_hull(shape, k, *hull);
+      if (const auto hull = hull_mesh(node.points)) motion.add_hull(shape, k, *hull);
       if (!node.leaf()) next.insert(next.end(), {node.left, node.right});
     }
     level = std::move(next);
   }
 }
 
-int run(const Scene& scene, const RunContext& context, Summary& summary) {
+// Makes a model ready for the clear search, or says what it cannot do.
+void prepare_clear(hulls::Model& model, const Shape& shape, const hulls::clear::Pieces& pieces) {
+  if (model.curved() || !model.parts.empty())
+    throw InputError(
+        "shape " + shape.name +
+        ": the clear search knows shapes that are hulls of points, and meshes; leave out --clear "
+        "and --mine");
+  hulls::add_hulls(model, pieces);
+}
+
+int run(const Scene& scene, const RunContext& context, Summary& summary, const hulls::clear::Pieces& pieces) {
+  if (context.clear && context.certificate)
+    throw InputError("--certificate tells of the boxes of the fast search; leave out --clear and --mine");
   const std::vector<Shape> shapes = build_shapes(scene, false);
   const auto count = [](std::size_t n) { return static_cast<std::int64_t>(n); };
   std::vector<hulls::Model> models;
   for (const Shape& shape : shapes) {
     const Stopwatch watch;
     models.push_back(hulls::build_model(shape));
+    if (context.clear) prepare_clear(models.back(), shape, pieces);
     const std::int64_t built_ns = watch.ns();
     if (shape.kind != Shape::Kind::mesh) continue;
     summary.add("shape " + shape.name, shape.report.text());
@@ -41,6 +55,7 @@ int run(const Scene& scene, const RunContext& context, Summary& summary) {
   const hulls::Model& a = models[scene.bodies[0].shape];
   const hulls::Model& b = models[scene.bodies[1].shape];
   hulls::SearchMemory memory;
+  if (context.clear) memory.pieces = &pieces;
   ca::AdvanceResult result;
   ca::run_queries(
       scene, shapes, ca::query_motions(scene, shapes),
@@ -52,12 +67,13 @@ int run(const Scene& scene, const RunContext& context, Summary& summary) {
       [&](MotionRecording& motion) {  // of a single query
         for (std::size_t i = 0; i < models.size(); ++i) {
           if (models[i].curved() || !models[i].parts.empty()) continue;  // no hulls of points to look at
-          const hulls::HullModel hulls = hulls::build_hull_model(models[i]);
+          if (!models[i].hulls) hulls::add_hulls(models[i], {});
+          const hulls::HullModel& hulls = *models[i].hulls;
           record_levels(motion, static_cast<int>(i), hulls);
           if (shapes[i].kind != Shape::Kind::mesh) continue;
           summary.add("shape " + shapes[i].name + ", convex pieces", count(hulls.pieces.start.size()) - 1);
           summary.add("shape " + shapes[i].name + ", hulls", count(hulls.tree.nodes.size()));
-          summary.add("shape " + shapes[i].name + ", hull points", count(hulls.tree.points.size()));
+          summary.add("shape " + shapes[i].name + ", hull points", points_in(hulls.tree));
         }
       });
   return 0;
@@ -71,6 +87,7 @@ std::vector<Effect> explain(const Scene&) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  hulls::clear::Pieces pieces;
   Chapter chapter;
   chapter.number = 2;
   chapter.name = "ch02_hull_hierarchy";
@@ -81,7 +98,10 @@ int main(int argc, char** argv) {
       "checks what --certificate writes.";
   chapter.example = "build/bin/ch02_hull_hierarchy chapters/ch02_hull_hierarchy/scenes/two_bunnies.yaml";
   chapter.explain = explain;
-  chapter.run = run;
+  chapter.pieces = hulls::clear::slots(pieces);
+  chapter.run = [&](const Scene& scene, const RunContext& context, Summary& summary) {
+    return run(scene, context, summary, pieces);
+  };
   chapter.check = [](const Scene& scene) { ca::query_motions(scene, build_shapes(scene, false)); };
   return run_program(argc, argv, chapter);
 }

@@ -1,11 +1,15 @@
 // A shape made ready for hierarchical collision queries.
 #pragma once
 
+#include <memory>
+
 #include "ch01_convex_advancement/gjk.hpp"
 #include "ch02_hull_hierarchy/box_tree.hpp"
 #include "ch02_hull_hierarchy/feature_mesh.hpp"
 
 namespace fc::hulls {
+
+struct HullModel;
 
 // Coordinates as in fc::Shape. A mesh's leaves are its triangles; a convex shape is one leaf; a compound's
 // leaves are its parts.
@@ -22,7 +26,8 @@ struct Model {
   std::vector<int> first_name;  // of a compound: a part's features are numbered from here on
   std::vector<int>
       component_triangle;  // one triangle of each connected component; none for a core without any
-  std::vector<ca::SupportTable> table;  // one, for a convex shape of many points, or none
+  std::vector<ca::SupportTable> table;     // one, for a convex shape of many points, or none
+  std::shared_ptr<const HullModel> hulls;  // for the clear search (hull_model.hpp), or none
 
   bool curved() const { return !disks.empty(); }
   const Model& part_of(int leaf) const { return parts[static_cast<std::size_t>(boxes.leaf_item[leaf])]; }

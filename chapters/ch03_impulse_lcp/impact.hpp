@@ -1,12 +1,11 @@
 // The impact law: velocities just after bodies have hit each other, at any number of contacts at once.
 #pragma once
 
-#include <functional>
 #include <span>
 #include <vector>
 
 #include "ch03_impulse_lcp/contact.hpp"
-#include "ch03_impulse_lcp/problem.hpp"
+#include "ch03_impulse_lcp/solver.hpp"
 
 namespace fc::lcp {
 
@@ -17,7 +16,7 @@ struct ImpactOptions {
   int max_solves = 8;
   // Rows -> impulses; empty means Dantzig's method. Whatever stands here, its answer is checked before any
   // velocity changes.
-  std::function<LcpResult(const Lcp&)> solver;
+  Solver solver;
 };
 
 // One impulse that was applied.

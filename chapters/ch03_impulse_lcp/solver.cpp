@@ -1,5 +1,6 @@
 #include "ch03_impulse_lcp/solver.hpp"
 
+#include <memory>
 #include <stdexcept>
 #include <string>
 
@@ -7,6 +8,7 @@
 #include "ch03_impulse_lcp/interior_point.hpp"
 #include "ch03_impulse_lcp/lemke.hpp"
 #include "ch03_impulse_lcp/projected_gauss_seidel.hpp"
+#include "common/scene.hpp"
 
 namespace fc::lcp {
 
@@ -52,6 +54,19 @@ LcpResult solve(const Lcp& problem, Method method, const SolveOptions& options) 
   }
   require(options.tolerance, result);
   return result;
+}
+
+Solver solver_of(const SolverSpec& spec) {
+  const Method method = method_named(spec.method);
+  const SolveOptions options{.limit = spec.limit, .tolerance = spec.tolerance};
+  if (method != Method::dantzig)
+    return [method, options](const Lcp& problem) { return solve(problem, method, options); };
+  return [solver = std::make_shared<DantzigSolver>(), options](const Lcp& problem) {
+    LcpResult result;
+    solver->solve(problem, {.max_pivots = options.limit}, result);
+    require(options.tolerance, result);
+    return result;
+  };
 }
 
 }  // namespace fc::lcp

@@ -2,10 +2,15 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <ostream>
 #include <string_view>
 
 #include "ch03_impulse_lcp/problem.hpp"
+
+namespace fc {
+struct SolverSpec;  // common/scene.hpp
+}
 
 namespace fc::lcp {
 
@@ -47,5 +52,11 @@ void require(double tolerance, LcpResult& result);
 // std::invalid_argument for sizes that do not match, entries that are not finite and bounds that are not as
 // Lcp says.
 LcpResult solve(const Lcp& problem, Method method = Method::dantzig, const SolveOptions& options = {});
+
+// Rows -> impulses: what the impact law calls.
+using Solver = std::function<LcpResult(const Lcp&)>;
+
+// The solver that a scene asks for: its method, limit and tolerance. Dantzig's keeps its memory from one call to the next.
+Solver solver_of(const SolverSpec& spec);
 
 }  // namespace fc::lcp

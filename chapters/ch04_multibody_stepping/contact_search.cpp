@@ -36,7 +36,8 @@ constexpr double kRoughShare = 0.25;
 // the gap that is spent this may be.
 constexpr double kBallRounding = 16;
 constexpr double kSpendShare = 0.01;
-constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kFarAway = std::numeric_limits<double>::infinity();  // m
+constexpr double kNever = std::numeric_limits<double>::infinity();    // s
 
 // Balls around the bodies that stay apart until the frame's end: no need to look closer.
 bool out_of_reach(const World& world, const Pair& pair, const ca::Motion& a, const ca::Motion& b, double left,
@@ -157,16 +158,22 @@ std::vector<lcp::Contact> contacts_of(const World& world, const Pair& pair, doub
   return contacts;
 }
 
+// The gap rule, of a certified gap that may be off by `rounding` (both m).
+clear::NextGap next_gap(const World& world, double gap, double rounding) {
+  return world.gap_rule(gap, {world.keep(), kStallShare * world.tolerance, rounding});
+}
+
 // find_next_contact() for two balls, in closed form; false where it is not sure to be better than the search:
 // little gap is left to spend, or round-off of the coordinates is no longer small against it.
 bool balls_meet(const World& world, Pair& pair, double now, double dt, StepReport& report) {
   const Balls balls(world, pair, now);
-  const double gap = balls.gap(), spend = std::min(gap, world.keep());
-  if (!balls.straight || spend <= kStallShare * world.tolerance || balls.rounding > kSpendShare * spend)
+  const double gap = balls.gap();
+  const clear::NextGap next = next_gap(world, gap, balls.rounding);
+  if (!balls.straight || next.spent || balls.rounding > kSpendShare * std::min(gap, world.keep()))
     return false;
   report.min_gap = std::min(report.min_gap, gap);
   ++report.queries;
-  const double time = now + balls.time_to(0.5 * spend);
+  const double time = now + balls.time_to(next.target);
   if (time >= dt) return true;
   if (!(time > now)) return false;
   pair.contact = true;
@@ -193,8 +200,7 @@ bool passes(const World& world, const NearPair& near, double interval, const hul
   const auto plane = slowest_plane(near, faces_beside(near, nearest, at), at, fastest, least);
   if (!plane) return false;
   const double gap = gap_along(near, *plane);
-  const double target = gap > -least ? 0.5 * std::min(gap, world.keep()) : gap + least;
-  return clear_along(near, *plane, target, interval) >= interval;
+  return clear_along(near, *plane, next_gap(world, gap, -least).target, interval) >= interval;
 }
 
 // A known gap (m) is measured more sharply where little of it is left: a distance is known to a sixteenth of the tolerance
@@ -210,14 +216,14 @@ bool slides_past(const World& world, const NearPair& near, double interval, doub
 // Sets what a search from a gap (m) on may spend of it. Whether that is so little that impacts pile up.
 bool aim_from(const World& world, const NearPair& near, const Pair& pair, double gap,
               hulls::ReachOptions& options) {
-  const double smallest = -least_gap(near), spend = std::min(gap, world.keep());
-  options.target = gap > smallest ? 0.5 * spend : gap - smallest;
-  options.slack = 0.25 * (gap > smallest ? std::min(spend, world.tolerance) : smallest);
+  const double smallest = -least_gap(near);
+  const clear::NextGap next = next_gap(world, gap, smallest);
+  options.target = next.target;
+  options.slack = 0.25 * (gap > smallest ? std::min({gap, world.keep(), world.tolerance}) : smallest);
   options.start = -1;
-  const bool little = gap <= std::max(smallest, kStallShare * world.tolerance);
   const bool convex = world.convex(pair.a) && world.convex(pair.b);
-  if (little) options.max_pairs = std::min(world.max_pairs, convex ? kStallPairs : kStallPairsOfMeshes);
-  return little;
+  if (next.spent) options.max_pairs = std::min(world.max_pairs, convex ? kStallPairs : kStallPairsOfMeshes);
+  return next.spent;
 }
 
 SceneFailure no_progress(const World& world, const Pair& pair) {
@@ -265,7 +271,7 @@ void find_next_contact(const World& world, Pair& pair, double now, double dt, st
     report.advances += reach.advances;
   };
   if (!gap) {  // a pair that is within the tolerance already reaches `start` at once
-    options.target = 0.5 * world.keep();
+    options.target = next_gap(world, kFarAway, 0).target;
     options.slack = 0.25 * world.tolerance;
     options.start = world.keep();
     search();
@@ -295,7 +301,7 @@ void find_next_contact(const World& world, Pair& pair, double now, double dt, st
   if (!pair.contact && !(pair.time > now)) throw no_progress(world, pair);
 }
 
-Island touching_island(const World& world, const Pair& pair, double now, StepReport& report) {
+Island touching_island(const World& world, int a, int b, double now, StepReport& report) {
   Island island;
   std::vector<int> open;
   std::vector<int> seen;                          // pairs
@@ -344,8 +350,8 @@ Island touching_island(const World& world, const Pair& pair, double now, StepRep
       add_contacts(resting);
     }
   };
-  add_body(pair.a);
-  add_body(pair.b);
+  add_body(a);
+  add_body(b);
   while (!open.empty()) {
     const int body = open.back();
     open.pop_back();

@@ -36,8 +36,8 @@ struct Island {
   std::vector<PairGap> gaps;  // of the pairs that touch
 };
 
-// Everything that touches (gap within the tolerance) at time `now`, connected to the given
-// pair over bodies that can move.
-Island touching_island(const World& world, const Pair& pair, double now, StepReport& report);
+// Everything that touches (gap within the tolerance) at time `now`, connected to the given two bodies
+// over bodies that can move.
+Island touching_island(const World& world, int a, int b, double now, StepReport& report);
 
 }  // namespace fc::world

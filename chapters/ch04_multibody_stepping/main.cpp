@@ -1,4 +1,5 @@
 // Chapter 4: bodies stepped from contact to contact inside frames of fixed length.
+#include "ch04_multibody_stepping/on_pieces.hpp"
 #include "ch04_multibody_stepping/run.hpp"
 #include "common/program.hpp"
 
@@ -6,13 +7,16 @@ namespace {
 
 using namespace fc;
 
-int run(const Scene& scene, const RunContext& context, Summary& summary) {
-  return world::run_scene(scene, context, summary, world::step);
+int run(const Scene& scene, const RunContext& context, const world::clear::Pieces& pieces, Summary& summary) {
+  return world::run_scene(scene, context, summary, world::step, false, [&](world::World& world) {
+    if (context.clear) world::put_on_pieces(world, scene, pieces);
+  });
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  world::clear::Pieces pieces;  // filled before run() if the options ask for it
   Chapter chapter;
   chapter.number = 4;
   chapter.name = "ch04_multibody_stepping";
@@ -23,7 +27,10 @@ int main(int argc, char** argv) {
   chapter.example =
       "build/bin/ch04_multibody_stepping chapters/ch04_multibody_stepping/scenes/two_bunnies.yaml --poses";
   chapter.explain = world::explain;
-  chapter.run = run;
+  chapter.run = [&pieces](const Scene& scene, const RunContext& context, Summary& summary) {
+    return run(scene, context, pieces, summary);
+  };
+  chapter.pieces = world::clear::slots(pieces);
   chapter.check = [](const Scene& scene) { world::build_world(scene); };
   return run_program(argc, argv, chapter);
 }

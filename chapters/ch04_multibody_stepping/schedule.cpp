@@ -51,6 +51,7 @@ int Schedule::open(int a, int b) {
 }
 
 int Schedule::find(int a, int b) const {
+  if (pairs_of(a).size() > pairs_of(b).size()) std::swap(a, b);  // a floor has many
   for (const int number : pairs_of(a)) {
     if (pair(number).a == b || pair(number).b == b) return number;
   }

@@ -58,8 +58,8 @@ struct Local {
   }
 };
 
-// One step from contact to contact: the world, the frame and the report at hand.
-class Stepper {
+// One step from contact to contact: the world, the frame and the report at hand. Its loop sees it as a Frame.
+class Stepper final : public clear::Frame {
  public:
   Stepper(World& world, double dt, StepReport& report, const Listeners& listeners)
       : world_(world), schedule_(world.schedule), dt_(dt), report_(report), listeners_(listeners) {}
@@ -82,52 +82,58 @@ class Stepper {
     for (const auto& [a, b] : pairs) open(a, b, 0);
   }
 
-  // The earliest event that is still true; false if none is left in the frame.
-  bool next(int& number, double& now) {
-    number = schedule_.next();
-    if (number >= 0) now = schedule_.pair(number).time;
-    return number >= 0;
+  std::optional<clear::Event> earliest() override {
+    using Kind = clear::Event::Kind;
+    const int number = schedule_.next();
+    if (number < 0) return std::nullopt;
+    const Pair& pair = schedule_.pair(number);
+    const Kind contact = is_sensor_pair(world_, pair.a, pair.b) ? Kind::sensed : Kind::contact;
+    return clear::Event{pair.contact ? contact : Kind::clear, pair.time, pair.a, pair.b, pair.stalled};
   }
 
-  void query(int number, double now) {
-    Pair& pair = schedule_.pair(number);
-    std::optional<double> gap;  // known of those that touched at this instant
-    if (now == solved_at_)
-      for (const PairGap& known : solved_)
-        if (known.a == pair.a && known.b == pair.b) gap = known.gap;
-    find_next_contact(world_, pair, now, dt_, gap, report_);
-    schedule_.answered(number, dt_);
+  void query(int a, int b, double now) override { query(schedule_.find(a, b), now); }
+
+  void report(int a, int b, double now) override { sight(a, b, now); }
+
+  bool is_stalled(int a, int b) const override {
+    const int number = schedule_.find(a, b);
+    if (number < 0) return false;  // the two do not come near each other
+    return schedule_.pair(number).stalled;
   }
 
-  // Solves everything that touches in the island, and starts the bodies anew from `now`.
-  void solve(const Island& island, double now);
+  std::span<const int> solve(int a, int b, double now) override {
+    island_ = touching_island(world_, a, b, now, report_);
+    solve_island(now);
+    if (listeners_.instant) listeners_.instant(world_, now);
+    return changed_;
+  }
 
-  // Freezes the island until the frame's end. One that touches nothing fixed goes on with its centre of mass; any other stays,
-  // with the kinematic bodies that move into it: whoever would go on would go through.
-  void freeze(const Island& island, double now) {
-    std::vector<int> stopped = island.bodies;
-    const bool free = is_free(island);
+  // An island that touches nothing fixed goes on with its centre of mass; any other stays, with the kinematic bodies that move
+  // into it: whoever would go on would go through.
+  std::span<const int> freeze(double now) override {
+    changed_ = island_.bodies;
+    const bool free = is_free(island_);
     bool lies = !free;  // on nothing that moves
     if (!free)
-      for (const lcp::Contact& contact : island.contacts) stop_pushers(contact, now, stopped, lies);
-    std::erase_if(stopped,
+      for (const lcp::Contact& contact : island_.contacts) stop_pushers(contact, now, changed_, lies);
+    std::erase_if(changed_,
                   [&](int body) { return world_.bodies[body].asleep || is_still(world_.bodies[body]); });
     Vec3 momentum = Vec3::Zero();
     double mass = 0;
-    for (const int body : stopped) {
+    for (const int body : changed_) {
       if (world_.bodies[body].frozen) lose(now - world_.bodies[body].time);
       world_.advance_to(body, now, now);
       momentum += world_.bodies[body].state.momentum();
       mass += world_.bodies[body].state.mass;
     }
-    for (const int body : stopped) {
+    for (const int body : changed_) {
       Body& b = world_.bodies[body];
       b.frozen = true;
       b.lies = lies;
-      b.group = free ? island.bodies.front() : -1;
+      b.group = free ? island_.bodies.front() : -1;
       b.group_velocity = free ? Vec3(momentum / mass) : Vec3(Vec3::Zero());
     }
-    new_motions(stopped, now);
+    return changed_;
   }
 
   // Looks at a pair with a sensor, and reports what is new: contacts are reported, not resolved. Whether they
@@ -141,8 +147,7 @@ class Stepper {
     return touching;
   }
 
-  // These bodies move in another way from now on: whatever was known of their pairs is void.
-  void new_motions(const std::vector<int>& bodies, double now) {
+  void renew(std::span<const int> bodies, double now) override {
     std::vector<Bounds> boxes;
     for (const int body : bodies) {
       boxes.push_back(world_.swept_bounds(body, now, dt_));
@@ -151,12 +156,25 @@ class Stepper {
     done_.resize(world_.bodies.size(), 0);
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       done_[static_cast<std::size_t>(bodies[i])] = 1;  // their pairs with this one are open, or it is itself
-      meet(bodies[i], boxes[i], now, [&](int other) { return done_[static_cast<std::size_t>(other)] != 0; });
+      open_pairs(bodies[i], boxes[i], now,
+                 [&](int other) { return done_[static_cast<std::size_t>(other)] != 0; });
     }
     for (const int body : bodies) done_[static_cast<std::size_t>(body)] = 0;
   }
 
  private:
+  void query(int number, double now) {
+    Pair& pair = schedule_.pair(number);
+    std::optional<double> gap;  // known of those that touched at this instant
+    if (now == solved_at_)
+      for (const PairGap& known : solved_)
+        if (known.a == pair.a && known.b == pair.b) gap = known.gap;
+    find_next_contact(world_, pair, now, dt_, gap, report_);
+    schedule_.answered(number, dt_);
+  }
+
+  void solve_island(double now);
+
   // Frozen where it is, not as one of a group that goes on.
   static bool is_still(const Body& body) { return body.frozen && body.group < 0; }
   void lose(double time) { report_.lost_time = std::max(report_.lost_time, time); }
@@ -193,7 +211,7 @@ class Stepper {
   // Opens and queries the pairs of a body with all whose boxes its own overlaps, but for those that `skip`
   // knows.
   template <class Skip>
-  void meet(int body, const Bounds& box, double now, Skip&& skip) {
+  void open_pairs(int body, const Bounds& box, double now, Skip&& skip) {
     others_.clear();
     schedule_.overlapping(box, [&](int other) {
       if (!skip(other) && world_.may_meet(body, other)) others_.push_back(other);
@@ -208,13 +226,16 @@ class Stepper {
   StepReport& report_;
   const Listeners& listeners_;
   std::vector<int> others_;
-  std::vector<char> done_;       // of each body, in new_motions()
+  std::vector<char> done_;       // of each body, in renew()
+  std::vector<int> changed_;     // bodies with new motions, since the last instant
+  Island island_;                // of the last instant
   std::vector<PairGap> solved_;  // the pairs that touched at the last instant, and its time
   double solved_at_ = -1;
 };
 
-void Stepper::solve(const Island& island, double now) {
+void Stepper::solve_island(double now) {
   const Stopwatch watch;
+  const Island& island = island_;
   Local local(world_, island, now);
   const Totals before(local.states);
   const lcp::ImpactResult impact = lcp::resolve_impact(local.states, local.contacts, world_.impact);
@@ -242,7 +263,7 @@ void Stepper::solve(const Island& island, double now) {
   solved_ = island.gaps;
   solved_at_ = now;
 
-  std::vector<int> changed;
+  changed_.clear();
   if (!impact.impulses.empty())
     for (std::size_t i = 0; i < island.bodies.size(); ++i) {
       const Body& body = world_.bodies[island.bodies[i]];
@@ -251,10 +272,10 @@ void Stepper::solve(const Island& island, double now) {
           is_still(body) && state.velocity == body.state.velocity && state.spin == body.state.spin;
       if (same) continue;  // a frozen body that was not hit stays frozen
       if (body.frozen) lose(now - body.time);
-      changed.push_back(island.bodies[i]);
+      changed_.push_back(island.bodies[i]);
     }
-  if (world_.effects.sleep) wake(world_, now, changed, report_);
-  for (const int body : changed) {
+  if (world_.effects.sleep) wake(world_, now, changed_, report_);
+  for (const int body : changed_) {
     const auto place = std::find(island.bodies.begin(), island.bodies.end(), body) - island.bodies.begin();
     const bool hit = place < static_cast<std::ptrdiff_t>(island.bodies.size());
     world_.set_motion(body, hit ? local.states[static_cast<std::size_t>(place)] : world_.state_at(body, now),
@@ -263,7 +284,24 @@ void Stepper::solve(const Island& island, double now) {
   if (listeners_.impact)
     for (const lcp::Impulse& impulse : impact.impulses)
       listeners_.impact({now, island.contacts[impulse.contact], impulse});
-  new_motions(changed, now);
+}
+
+// The loop where a planner decides what becomes of bodies in contact: its plans end, too, and nothing is frozen.
+void run_planned(Stepper& stepper, Planner& planner, World& world, double dt, StepReport& report,
+                 const Listeners& listeners) {
+  using Kind = clear::Event::Kind;
+  while (true) {
+    if (const double end = planner.next_end(); end <= std::min(world.schedule.next_time(), dt)) {
+      stepper.renew(planner.end_plans(world, end, report, listeners), end);
+      continue;
+    }
+    const std::optional<clear::Event> event = stepper.earliest();
+    if (!event) return;
+    const auto [kind, now, a, b, stalled] = *event;
+    if (kind == Kind::clear) stepper.query(a, b, now);
+    if (kind == Kind::sensed) stepper.report(a, b, now);
+    if (kind == Kind::contact) stepper.renew(planner.meet(world, a, b, now, report, listeners), now);
+  }
 }
 
 StepReport step(World& world, double dt, const Listeners& listeners, Planner* planner);
@@ -298,45 +336,11 @@ StepReport step(World& world, double dt, const Listeners& listeners, Planner* pl
 
   // ANCHOR: step
   Stepper stepper(world, dt, report, listeners);
-  stepper.begin_frame(planner);
-  int next = -1;
-  double now = 0;
-  while (true) {
-    if (planner != nullptr && planner->next_end() <= std::min(world.schedule.next_time(), dt)) {
-      now = planner->next_end();
-      stepper.new_motions(planner->end_plans(world, now, report, listeners), now);
-      continue;
-    }
-    if (!stepper.next(next, now)) break;
-    // From contact to contact: the earliest of all pairs.
-    const Pair pair = world.schedule.pair(next);
-    if (!pair.contact) {  // proved clear only until now
-      stepper.query(next, now);
-      continue;
-    }
-
-    if (is_sensor_pair(world, pair.a, pair.b)) {
-      stepper.sight(pair.a, pair.b, now);
-      continue;
-    }
-
-    if (planner != nullptr) {
-      stepper.new_motions(planner->meet(world, pair.a, pair.b, now, report, listeners), now);
-      continue;
-    }
-
-    // All contacts of this instant, together.
-    const Island island = touching_island(world, pair, now, report);
-    stepper.solve(island, now);
-    if (listeners.instant) listeners.instant(world, now);
-
-    // If no motion has changed, its event is gone, and it must be queried again.
-    const int again = world.schedule.find(pair.a, pair.b);
-    if (again < 0) continue;  // by now the two do not come near each other
-    if (world.schedule.pair(again).answers == pair.answers) stepper.query(again, now);
-    // No gap left to spend, and still closing in: impacts would pile up without end.
-    if (pair.stalled && world.schedule.pair(again).stalled) stepper.freeze(island, now);
-  }
+  stepper.begin_frame(planner);  // pairs whose swept boxes overlap; each is queried
+  if (planner == nullptr)
+    world.event_loop(stepper);
+  else
+    run_planned(stepper, *planner, world, dt, report, listeners);
   // ANCHOR_END: step
 
   if (world.effects.sleep && planner == nullptr) fall_asleep(world, dt, report);

@@ -84,21 +84,6 @@ void refuse_overlaps(const World& world, const Scene& scene) {
   }
 }
 
-// The scene's solver of an instant's contacts. Dantzig's keeps its memory from one instant to the next.
-std::function<lcp::LcpResult(const lcp::Lcp&)> solver_of(const SolverSpec& spec) {
-  if (spec.method == SolverSpec().method) {
-    return [solver = std::make_shared<lcp::DantzigSolver>(), spec](const lcp::Lcp& rows) {
-      lcp::LcpResult result;
-      solver->solve(rows, {.max_pivots = spec.limit}, result);
-      lcp::require(spec.tolerance, result);
-      return result;
-    };
-  }
-  const lcp::Method method = lcp::method_named(spec.method);
-  const lcp::SolveOptions options{.limit = spec.limit, .tolerance = spec.tolerance};
-  return [method, options](const lcp::Lcp& rows) { return lcp::solve(rows, method, options); };
-}
-
 bool is_centred_ball(const Shape& shape) {
   return shape.kind == Shape::Kind::sphere && shape.core.vertices[0].isZero(0);
 }
@@ -204,7 +189,7 @@ void World::set_motion(int body, const RigidBody& state, double time) {
   b.group_velocity = Vec3::Zero();
   if (!effects.gyroscopic || !is_dynamic(body) || state.free_turns != Vec3::Ones()) return;
   ca::Motion motion(state);
-  motion.turn_freely(principal[b.shape]);
+  turn_freely(motion, principal[b.shape]);
   b.free = motion.free;
   b.free_start = 0;
   b.free_rate = 1;
@@ -219,7 +204,7 @@ void World::advance_to(int body, double time, double relabel) {
   b.group_velocity = group_velocity;
   if (b.free && b.plan.number >= 0) {  // from here on it turns freely again
     ca::Motion motion(b.state);
-    motion.turn_freely(principal[b.shape]);
+    turn_freely(motion, principal[b.shape]);
     b.free = motion.free;
     b.free_start = 0;
     b.free_rate = 1;
@@ -284,7 +269,7 @@ World build_world(const Scene& scene) {
   world.pair_rules = PairRules(scene);
   world.effects = effects_of(scene);
   world.solver = scene.solver;
-  world.impact.solver = solver_of(scene.solver);
+  world.impact.solver = lcp::solver_of(scene.solver);
   world.max_pairs = scene.ccd.max_iterations;
   for (const Shape& shape : world.shapes) {
     world.half_extents.push_back(half_extent(shape));

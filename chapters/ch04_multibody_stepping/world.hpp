@@ -10,9 +10,11 @@
 
 #include "ch02_hull_hierarchy/advance.hpp"
 #include "ch03_impulse_lcp/impact.hpp"
+#include "ch04_multibody_stepping/clear/pieces.hpp"
 #include "ch04_multibody_stepping/effects.hpp"
 #include "ch04_multibody_stepping/paths.hpp"
 #include "ch04_multibody_stepping/schedule.hpp"
+#include "ch04_multibody_stepping/torque_free.hpp"
 #include "common/pair_rules.hpp"
 #include "common/scene.hpp"
 #include "common/shape.hpp"
@@ -51,7 +53,7 @@ struct Body {
   double clock = 0;
   double still = 0;  // s, how long it has lain without a break
   // With a gyroscopic effect: its rotation since the last impact, and where on it the body is at `time`.
-  std::shared_ptr<const ca::TorqueFree> free;
+  std::shared_ptr<const ca::VaryingSpin> free;
   double free_start = 0, free_rate = 1;
 };
 
@@ -69,11 +71,11 @@ RigidBody as_it_moves(const Body& body, RigidBody state);
 
 struct World {
   std::vector<Shape> shapes;
-  std::vector<hulls::Model> models;  // one for each shape
-  PairRules pair_rules;              // what the scene says of two shapes
-  std::vector<double> ball_radius;   // m, of each shape that is a ball; else 0
-  std::vector<Vec3> half_extents;    // m, of each shape along its own axes, from its centre of mass
-  std::vector<ca::PrincipalInertia> principal;  // of each shape; empty without a gyroscopic effect
+  std::vector<hulls::Model> models;         // one for each shape
+  PairRules pair_rules;                     // what the scene says of two shapes
+  std::vector<double> ball_radius;          // m, of each shape that is a ball; else 0
+  std::vector<Vec3> half_extents;           // m, of each shape along its own axes, from its centre of mass
+  std::vector<PrincipalInertia> principal;  // of each shape; empty without a gyroscopic effect
   std::vector<Body> bodies;
   mutable hulls::SearchMemory memory;  // of the search for a pair's next contact: nothing of it is a state
   Schedule schedule;                   // of the frame that is being stepped
@@ -84,7 +86,9 @@ struct World {
   double part_start = 0;  // s, in the frame: from where the times of its bodies count, if it is cut in parts
   double rest_gap = 0;    // m, half of which a pair has left when it is stopped; 0: the tolerance
   lcp::ImpactOptions impact = {};  // the solver of an instant's contacts
-  SolverSpec solver;               // what the scene says of it
+  clear::GapRuleFunction* gap_rule = clear::gap_rule;
+  clear::EventLoopFunction* event_loop = clear::event_loop;
+  SolverSpec solver;  // what the scene says of it
 
   const hulls::Model& model_of(int body) const { return models[bodies[body].shape]; }
   double keep() const { return std::max(tolerance, rest_gap); }  // m: see find_next_contact()

@@ -20,7 +20,7 @@ constexpr double kLeastKnown = 1.0 / 16;
 // How rough the distance of meshes may be that are not in contact.
 constexpr double kRough = 0.5;
 
-// For so many frames a pair is kept that nothing queries.
+// A pair that nothing queries is kept for this number of frames.
 constexpr std::int64_t kKept = 16;
 
 // By how much at most any point of the smaller body has moved, as seen from the larger one.

@@ -15,7 +15,7 @@ constexpr double kWider = 0.5;
 constexpr int kMostStarts = 16;
 constexpr double kWiderIfKept = 0.05;
 
-// Of the margin: contact points of a pile are searched anew after so much motion.
+// Part of the margin: contact points of a pile are searched again after this much motion.
 constexpr double kAgain = 4;
 
 // The mean of the spin that turns one orientation into another in a time.

@@ -27,7 +27,7 @@ class Courses {
   // given to it anew, and cannot be.
   Courses(Contacts& contacts, bool keep) : contacts_(contacts), keep_(keep) {}
 
-  // For `length` seconds from `now` on (s in the frame). Nobody has a path yet.
+  // For `length` seconds from `now` on (s in the frame). No member has a path yet.
   void start(const world::World& world, std::span<const Member> members, double now, double length);
   // Adds the pairs that may come near each other, and brings their contacts to the start: at first all whose paths by their
   // mean velocities do, then those of bodies whose paths leave the boxes that were looked at. `far`: contact points are wanted

@@ -110,7 +110,7 @@ void GaussSeidel::sweep() {
 // Gives the rows that were added since the last time their places. A row has to wait for the one before it if both move the same
 // body, and neighbours do: pairs come body by body. So of a long list eight pairs go in step, from eight places of it, the first row
 // of each, then the second of each: the processor works on several at once. In each part of the list pairs keep their order, so what
-// one learns, the next one hears in the same sweep.
+// one row changes, the next one sees in the same sweep.
 void GaussSeidel::arrange() {
   constexpr int kInStep = 8, kLeastPart = 64;
   if (arranged_ == rows()) return;

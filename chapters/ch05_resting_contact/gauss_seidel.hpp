@@ -32,8 +32,8 @@ class GaussSeidel {
   int rows() const { return static_cast<int>(rows_.size()); }
   int bodies() const { return static_cast<int>(masses_.size()); }
 
-  // So many sweeps of both problems, from the guesses. More if these were so bad that there would be more kinetic energy than
-  // v_0 has; so there never is. Returns how many.
+  // Makes this number of sweeps of both problems, from the guesses; more if these were so bad that there would be more kinetic
+  // energy than v_0 has, so that there never is. Returns how many.
   int run(int sweeps) { return run<true, true>(sweeps); }
   // Goes on with one of them alone.
   int run_velocities(int sweeps) { return run<true, false>(sweeps); }

@@ -11,7 +11,7 @@ namespace {
 // Of the margin: what is farther apart and comes in fast will be an event of its own.
 constexpr double kThere = 0.6;
 
-// After so many rounds in one instant nothing bounces any more.
+// After this number of rounds in one instant nothing bounces any more.
 constexpr int kMostBounces = 8;
 
 double kinetic(const std::vector<RigidBody>& bodies) {

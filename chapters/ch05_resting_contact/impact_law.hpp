@@ -36,7 +36,7 @@ world::ImpactRecord record_of(double time, const lcp::Contact& contact, const Ve
 //   2. expansion     each contact gives back what its restitution says, k e_i z_i, with the largest k <= 1 for which this takes
 //                    no more energy than the compression gave: k^2 r'A r <= z'A z, r_i = e_i z_i.
 // With one restitution for all, k is 1 and this is chapter 3's law; with several it cannot gain energy, as that one could. It
-// is an impact, with restitution, if something comes in faster than rest_speed; else all e_i are 0. Who then still approaches is
+// is an impact, with restitution, if something comes in faster than rest_speed; else all e_i are 0. What then still approaches is
 // stopped by a last compression. A contact that comes in fast from farther than the rest gap is left alone: it is not there yet.
 InstantResult resolve_instant(const world::World& world, Island& island, double margin, ContactLaw& law,
                               const InstantOptions& options);

@@ -34,13 +34,13 @@ struct IslandPair {
 struct Island {
   std::vector<Member> members;    // in the order in which they were found
   std::vector<IslandPair> pairs;  // in contact
-  int dynamic = 0;                // so many of the members can be moved
+  int dynamic = 0;                // how many of the members can be moved
   int points() const {
     int count = 0;
     for (const IslandPair& pair : pairs) count += static_cast<int>(pair.contacts->points.size());
     return count;
   }
-  // So many of them can push at once, at most: six of two bodies.
+  // How many of them can push at once, at most: six of two bodies.
   int rank() const {
     int count = 0;
     for (const IslandPair& pair : pairs) count += pair.contacts->rank();
@@ -55,7 +55,7 @@ class IslandFinder {
   void begin(double now);
   // The island of a body that can be moved and is in none since begin(). Bodies that are not in contact: an island of
   // one body without pairs. Sleeping bodies that it reaches belong to it. So do members of piles (pile_of[body] >= 0), but
-  // nobody is looked for from there.
+  // the search does not go on from there.
   Island grow(const world::World& world, int body, const std::vector<int>& pile_of);
   bool is_in_island(int body) const { return stamp_[at(body)] >= first_; }
 

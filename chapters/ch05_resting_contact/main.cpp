@@ -1,15 +1,19 @@
 // Chapter 5: resting and sliding contact, by plans for the bodies that are nearer than the envelope; all else is chapter 4's.
+#include "ch05_resting_contact/clear/clear_run.hpp"
 #include "ch05_resting_contact/rest_run.hpp"
 
 namespace {
 
 using namespace fc;
 
+resting::clear::Pieces pieces;
+
 std::vector<Effect> explain(const Scene& scene) {
   return scene.envelope ? resting::explain(scene) : world::explain(scene);
 }
 
 int run(const Scene& scene, const RunContext& context, Summary& summary) {
+  if (context.clear) return resting::run_clear_scene(scene, context, summary, pieces);
   if (scene.envelope) return resting::run_scene(scene, context, summary);
   return world::run_scene(scene, context, summary, world::step, true);  // chapter 4's motion, to the byte
 }
@@ -37,5 +41,6 @@ int main(int argc, char** argv) {
   chapter.explain = explain;
   chapter.run = run;
   chapter.check = check;
+  chapter.pieces = slots(pieces);
   return run_program(argc, argv, chapter);
 }

@@ -18,7 +18,7 @@ struct PlaneAt {
   double gap;
 };
 
-// How somebody moves who goes with a body, or a plane.
+// The motion of axes that go with a body, or with a plane.
 struct Moving {
   Vec3 position, velocity, acceleration, spin;
   double spin_rate, reach;
@@ -32,7 +32,7 @@ struct Moving {
         reach(path.reach) {}
 };
 
-// How much a point of `body` is accelerated at most, as seen by one who stands on `viewer` and turns with it
+// How much a point of `body` is accelerated at most, seen in axes that stand on `viewer` and turn with it
 // (m/s^2): p'' = a_p - w x (w x r) - 2 w x u, with r from the viewer's centre and u the velocity that it
 // sees.
 double bend_seen_from(const Moving& viewer, const Moving& body, double dt) {

@@ -23,7 +23,7 @@ Path path_of(const world::World& world, int body, double now, double dt);
 struct PathVerdict {
   bool clear = false;
   double time = 0;   // s, not clear: when the gap has come down to about `required_gap`
-  double slack = 0;  // m, clear: by so much the gap is proved to stay above `required_gap`
+  double slack = 0;  // m, clear: how far above `required_gap` the gap is proved to stay
 };
 
 // How hard to try.
@@ -41,7 +41,7 @@ struct PathOptions {
 //   2. by planes      (convex pairs) that go with a body, or turn evenly from the best at the start to the best at the end: if
 //                     the gap along one is s_0 and s_1 at the ends of an interval dt, then at the part x of it the gap is at
 //                     least (1 - x) s_0 + x s_1 - k dt^2 x (1 - x) / 2, where k bounds how much the path of any point is bent,
-//                     as seen by who goes with the plane; intervals are halved where that is too little;
+//                     as seen from the plane; intervals are halved where that is too little;
 //   3. by conservative advancement (chapter 2).
 PathVerdict check_path(const world::World& world, const Contacts& contacts, PairContacts& pair, const Path& a,
                        const Path& b, double dt, const PathOptions& options);

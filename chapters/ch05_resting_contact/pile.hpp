@@ -1,4 +1,4 @@
-// Piles: so many bodies that meet in one frame that nobody could go from one of their events to the next.
+// Piles: bodies that meet so often in one frame that going from event to event would take too long.
 #pragma once
 
 #include <algorithm>

@@ -100,7 +100,7 @@ PlanResult PlanMaker::try_length(const world::World& world, const Island& island
     courses_.candidates[at(candidate)].in_contact = !pair.contacts->points.empty();
     for (const ContactPoint& point : pair.contacts->points) {
       const PlanRow row = rows_.row_of(world, candidate, point, false);
-      if (row.contact.gap <= margin) rows_.rows.push_back(row);  // proofs find out who arrives, and how fast
+      if (row.contact.gap <= margin) rows_.rows.push_back(row);  // proofs find out what arrives, and how fast
     }
   }
   const auto options_of = [&](const Candidate& pair) {
@@ -135,7 +135,7 @@ PlanResult PlanMaker::try_length(const world::World& world, const Island& island
 
 // Whether the pushes add more kinetic energy than a plan may borrow until its end takes it back. Bodies that turn a plane by an
 // angle of t on a path borrow t^2 / 4 of theirs. And whether those that turn freely would gain at the end, where their spins
-// change as if nobody had pushed them.
+// change as if nothing had pushed them.
 bool PlanMaker::gains() const {
   double gain = 0, size = 0, end_gain = 0;
   for (std::size_t i = 0; i < courses_.members.size(); ++i) {
@@ -207,7 +207,7 @@ void PlanMaker::remember() const {
     }
 }
 
-// Who goes by the plan: whoever is pushed, or ends in contact.
+// The bodies that go by the plan: those that are pushed, or end in contact.
 Planned PlanMaker::take() {
   const double length = courses_.length();
   remember();

@@ -9,7 +9,7 @@
 namespace fc::resting {
 namespace {
 
-// Of what a gap lacks of the rest gap, so much is put right in a plan; gaps below this part of the margin at once.
+// The share of what a gap lacks of the rest gap that a plan makes up; and the part of the margin that it reaches at once.
 constexpr double kCorrect = 0.2, kLeastGap = 0.25;
 constexpr double kNearRest = 0.99999;  // of the rest gap: nothing is put right from here on
 
@@ -77,7 +77,7 @@ PlanResult PlanRows::close_ends() {
   return worst <= kNearlyClosed * margin_ ? PlanResult::proved : PlanResult::unproved;
 }
 
-// Looks at a row at the end of the paths. Returns by how much (m) it is not what the solution took it for.
+// Measures a row at the end of the paths. Returns how far (m) it is from what the solution assumed.
 double PlanRows::measure(PlanRow& row) const {
   const Path &a = courses_.paths[at(row.contact.body_a)], &b = courses_.paths[at(row.contact.body_b)];
   row.end_gap = row.point.gap_at(a.end, b.end);

@@ -32,7 +32,7 @@ double wanted_gap(double gap, double margin);
 // Solves the rows of a plan of which `courses` has the bodies. From v, the velocities now, and with u, the mean velocity of free
 // flight in the plan's time (v + dt g/2 without drag):
 //   1. push    velocities w = u + M^-1 J'z: z >= 0, every gap at the plan's END >= min(gap, margin/2), z only where it is that;
-//   2. correct path velocities y = w + M^-1 J'c: the same with ends that bring gaps nearer to margin/2; no velocity hears of it.
+//   2. correct path velocities y = w + M^-1 J'c: the same with ends that bring gaps nearer to margin/2; velocities stay w.
 // The gap at the end is that of the bodies as they will stand there, not its first order: the rows' right-hand sides are
 // corrected until both agree (a chord method).
 class PlanRows {

@@ -150,7 +150,7 @@ std::vector<int> Resting::go_on(Instant instant) {
   return std::move(instant.changed);
 }
 
-// Whether a pile has got into the island, or nobody could go on with it from event to event.
+// Whether a pile has got into the island, or going on from event to event would take too long.
 bool Resting::is_pile(const Instant& instant, const Island& island) {
   const auto cannot_go = [&](const Member& member) {
     return member.dynamic &&
@@ -321,7 +321,7 @@ void Resting::go_on(Instant& instant, PileList::Pile& pile) {
         length == left ? end : instant.now + length);
 }
 
-// Whether nobody moves by it.
+// Whether no body moves by it.
 bool Resting::start(Instant& instant, const std::shared_ptr<const Planned>& planned, double end) {
   ++report_.plans;
   report_.resting += planned->pushing;

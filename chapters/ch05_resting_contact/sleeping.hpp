@@ -5,7 +5,7 @@
 
 namespace fc::resting {
 
-// An island that somebody awake touches is awake.
+// An island that an awake body touches is awake.
 void wake(world::World& world, std::span<const Member> members, world::StepReport& report);
 
 // At a frame's end: islands that lie on what does not move, and whose bodies have all been slow for as long as the scene says.

@@ -86,15 +86,18 @@ function(fc_add_stage name)
   fc_add_library(${name} UNITY SOURCES ${sources} LINKS ${ARG_LINKS})
   get_filename_component(folder ${CMAKE_CURRENT_SOURCE_DIR} NAME)
   fc_install_library(${name} ${folder})
+  fc_install_headers(${folder})
 endfunction()
 
-# fc_install_library(NAME FOLDER): `cmake --install` puts the library and the headers of the current folder where
-# find_package(first_contact) finds them, as first_contact::FOLDER.
-function(fc_install_library name folder)
+# fc_install_library(NAME EXPORTED), fc_install_headers(FOLDER): `cmake --install` puts the library, and the headers of the current
+# folder, where find_package(first_contact) finds them, as first_contact::EXPORTED and FOLDER/*.hpp.
+function(fc_install_library name exported)
   target_compile_options(${name} INTERFACE $<INSTALL_INTERFACE:-ffp-contract=off>)  # headers compute bounds, too
   target_include_directories(${name} INTERFACE $<INSTALL_INTERFACE:include/first_contact>)
-  set_target_properties(${name} PROPERTIES EXPORT_NAME ${folder})
+  set_target_properties(${name} PROPERTIES EXPORT_NAME ${exported})
   install(TARGETS ${name} EXPORT first_contact ARCHIVE DESTINATION lib)
+endfunction()
+function(fc_install_headers folder)
   install(DIRECTORY . DESTINATION include/first_contact/${folder} FILES_MATCHING PATTERN "*.hpp" PATTERN study EXCLUDE)
 endfunction()
 

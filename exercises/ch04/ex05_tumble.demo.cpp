@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "ch01_convex_advancement/torque_free.hpp"
+#include "ch04_multibody_stepping/torque_free.hpp"
 #include "common/table.hpp"
 #include "common/todo.hpp"
 #include "ex05_tumble.hpp"
@@ -32,7 +32,7 @@ int main(int argc, char** argv) {
   Tumbler start;
   start.moments = {5, 10, 13};
   start.momentum = start.moments.cwiseProduct(spin);
-  const ca::TorqueFree exact(Mat3(start.moments.asDiagonal()), Mat3::Identity(), spin);
+  const world::TorqueFree exact(Mat3(start.moments.asDiagonal()), Mat3::Identity(), spin);
   try {
     std::filesystem::create_directories(folder);
     TableWriter table(folder / "tumble.csv", {{"step", "s"},

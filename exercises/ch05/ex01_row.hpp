@@ -4,11 +4,11 @@
 
 namespace fc::exercises {
 
-// The envelope, and the frame in which it is asked. A plan is as long as the frame here.
+// The envelope, and the frame's length. A plan is as long as the frame here.
 struct Envelope {
   double width = 0;     // h, m, > 0
   double dt = 0;        // s, > 0: the frame's length
-  double share = 0.2;   // in (0, 1]: of what a gap lacks to h/2, so much is made up in a plan
+  double share = 0.2;   // in (0, 1]: the part of what a gap lacks to h/2 that a plan makes up
   double least = 0.25;  // in [0, 1/2]: what lacks to this part of h is made up at once
 };
 
@@ -42,11 +42,11 @@ struct Frame {
 // One frame of a ball that is in contact (gap <= h) and goes by a plan:
 //   1. half of gravity (m/s^2, >= 0) first: u = v - dt gravity / 2;
 //   2. push: w is the smallest velocity >= u that the row allows, and with it the ball moves straight on for the frame;
-//   3. correct: then the gap is put right, and no velocity hears of that;
+//   3. correct: then the gap is put right, which changes no velocity;
 //   4. the other half of gravity;
 //   5. the instant: if the ball is still in contact and closes in, an impact leaves with `restitution` times its speed. What closes
 //      in faster than h/dt, did not last, and is farther away than h/2 is left alone: it is not there yet. All else is stopped.
-// Guarantees, up to rounding: the gap never comes below h/2, or below what it was if that was less; who is not pushed moves as in
+// Guarantees, up to rounding: the gap never comes below h/2, or below what it was if that was less; what is not pushed moves as in
 // free fall; kinetic and potential energy together grow by `energy` at most.
 Frame rest(const Envelope& envelope, double gravity, Ball& ball);
 

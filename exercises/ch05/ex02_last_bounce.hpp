@@ -31,7 +31,7 @@ Ending ending(const Drop& drop, double width, double dt);
 // frame of bouncing: `cut` is at most dt. Infinite if e = 0; 0 if e = 1.
 double widest_envelope(double restitution, double gravity, double dt);
 
-// The narrowest envelope, m, that leaves this drop at most so many bounces (>= 0).
+// The narrowest envelope, m, that leaves this drop at most this number of bounces (>= 0).
 double narrowest_envelope(const Drop& drop, double dt, std::int64_t bounces);
 
 // The shortest frame, s, in which the widest envelope is not narrower than `least` (m, > 0; the chapter wants

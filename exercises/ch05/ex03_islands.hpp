@@ -38,9 +38,9 @@ struct Island {
 };
 
 // The islands of bodies of which some are `fixed` (one entry each, not 0: static or kinematic). Two moving
-// bodies that touch are of one island, and so is everyone whom they touch. A fixed body takes no impulse and
-// passes none on: it joins nobody and is in no island, though its contacts are in those of whom it touches. A
-// contact of two fixed bodies is in none. A body without contacts is in none. Islands come in the order of
+// bodies that touch are of one island, and so is every body that these touch. A fixed body takes no impulse and
+// passes none on: it joins nothing and is in no island, though its contacts are in the islands of
+// the bodies that it touches. A contact of two fixed bodies is in none. A body without contacts is in none. Islands come in the order of
 // their first contacts. The cost is that of a few steps for each contact.
 std::vector<Island> islands_of(std::span<const char> fixed, std::span<const Touch> contacts);
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "ch02_hull_hierarchy/advance.hpp"
-#include "ch02_hull_hierarchy/study_mesh.hpp"
-#include "ch02_hull_hierarchy/study_motions.hpp"
+#include "ch02_hull_hierarchy/study/mesh.hpp"
+#include "ch02_hull_hierarchy/study/motions.hpp"
 
 namespace fc::bench {
 

@@ -7,7 +7,7 @@
 #include <chrono>
 #include <functional>
 
-#include "ch04_multibody_stepping/study_parts.hpp"
+#include "ch04_multibody_stepping/study/parts.hpp"
 #include "tests/bench/bench.hpp"
 #include "tests/bench/ch04_engines.hpp"
 

@@ -5,6 +5,7 @@
 
 #include "ch01_convex_advancement/advance.hpp"
 #include "ch01_convex_advancement/linear.hpp"
+#include "ch04_multibody_stepping/torque_free.hpp"
 #include "suite.hpp"
 #include "tests/support/allocation_counter.hpp"
 #include "tests/support/random_shapes.hpp"
@@ -72,7 +73,7 @@ TEST(Allocations, NoneWithLargeHullsThatTurnFreely) {
     const ca::Motion rest = fc::test::motion(Vec3::Zero(), fc::test::rotation(random));
     ca::Motion comes =
         fc::test::motion(from, fc::test::rotation(random), -2 * from, 5 * fc::test::unit_vector(random));
-    comes.turn_freely(ca::PrincipalInertia(Vec3(1, 2, 2.5).asDiagonal()));
+    world::turn_freely(comes, world::PrincipalInertia(Vec3(1, 2, 2.5).asDiagonal()));
     const std::int64_t before = allocations();
     ca::advance(shape, rest, shape, comes, {}, result);
     ASSERT_EQ(allocations(), before);

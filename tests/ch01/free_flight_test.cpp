@@ -33,7 +33,7 @@ struct FreeSolid {
     state.spin = angle / body.spin.norm() * body.spin;
     motion = ca::Motion(state);
     moments = body.moments;
-    motion.turn_freely(ca::PrincipalInertia(body.inertia()));
+    world::turn_freely(motion, world::PrincipalInertia(body.inertia()));
   }
 };
 
@@ -159,11 +159,11 @@ RC_GTEST_PROP(FreeFlight, MotionBoundsHold, ()) {
 TEST(FreeFlight, ConstantSpinStaysConstant) {
   for (const Vec3& spin : {Vec3(0, 0, 0), Vec3(3, 0, 0), Vec3(0, -2, 0)}) {
     ca::Motion m = motion({1, 2, 3}, Quat::Identity(), {1, 0, 0}, spin);
-    m.turn_freely(ca::PrincipalInertia(Vec3(1, 2, 2.5).asDiagonal()));
+    world::turn_freely(m, world::PrincipalInertia(Vec3(1, 2, 2.5).asDiagonal()));
     EXPECT_FALSE(m.free);
   }
   ca::Motion ball = motion({1, 2, 3}, Quat::Identity(), {1, 0, 0}, {1, 2, 3});
-  ball.turn_freely(ca::PrincipalInertia(Mat3(2 * Mat3::Identity())));
+  world::turn_freely(ball, world::PrincipalInertia(Mat3(2 * Mat3::Identity())));
   EXPECT_FALSE(ball.free);
 }
 

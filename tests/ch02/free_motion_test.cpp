@@ -31,7 +31,7 @@ Case random_case(Random& random, double drag, double spin_drag, bool only_a) {
     m.spin = uniform(random, 1, 8) * body.spin.normalized();
     m.spin_rate = m.spin.norm();
     m.spin_axis = m.spin.normalized();
-    m.turn_freely(ca::PrincipalInertia(body.inertia()));
+    world::turn_freely(m, world::PrincipalInertia(body.inertia()));
     return m;
   };
   Case c{motion(Vec3::Zero(), vector(0.5)), motion(Vec3(3, 0, 0) + vector(0.5), Vec3(-3, 0, 0) + vector(1))};

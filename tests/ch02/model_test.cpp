@@ -136,10 +136,10 @@ TEST(HullTree, ParentsContainTheirChildren) {
     const HullModel model = build_hull_model(model_of(core));
     std::vector<int> leaves(count(model.pieces), 0), parents(model.tree.nodes.size(), 0);
     for (const HullNode& node : model.tree.nodes) {
-      for (const Vec3& x : model.tree.hull(node)) ASSERT_LE((x - node.center).norm(), node.radius);
+      for (const Vec3& x : node.points) ASSERT_LE((x - node.center).norm(), node.radius);
       const auto top = [&](const HullNode& n, const Vec3& d) {
         double most = -1e300;
-        for (const Vec3& x : model.tree.hull(n)) most = std::max(most, d.dot(x));
+        for (const Vec3& x : n.points) most = std::max(most, d.dot(x));
         return most;
       };
       if (node.leaf()) {

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "ch02_hull_hierarchy/advance.hpp"
+#include "ch04_multibody_stepping/torque_free.hpp"
 #include "tests/support/test_models.hpp"
 
 namespace {
@@ -208,7 +209,7 @@ TEST(HierarchyReplay, RefusesABodyThatTurnsFreely) {
   Asked q = cubes({3, 0.3, 0.2}, {-4, 0, 0}, options);
   EXPECT_TRUE(q.replayed().empty());
   q.mb.spin = {1, 2, 3};
-  q.mb.turn_freely(ca::PrincipalInertia(Vec3(2, 3, 4).asDiagonal()));
+  world::turn_freely(q.mb, world::PrincipalInertia(Vec3(2, 3, 4).asDiagonal()));
   ASSERT_TRUE(q.mb.free);
   EXPECT_EQ(refused_rows(q), std::vector{-1});
 }

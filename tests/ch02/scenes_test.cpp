@@ -1,4 +1,6 @@
 // The chapter's own scenes give what they say; their meshes are what the script beside them writes.
+#include <fstream>
+
 #include "tests/support/run_files.hpp"
 
 namespace {
@@ -32,6 +34,33 @@ TEST(MeshScenes, ABoltNeedsToTurn) {
   EXPECT_EQ(status(ask("bolt_in_nut.yaml")), "separated");
   EXPECT_EQ(status(ask("bolt_in_nut.yaml", "--set bodies.1.spin=[0,0,0]")), "contact");
   EXPECT_EQ(status(ask("bolt_in_nut.yaml", "--set bodies.1.spin=[0,0,-1.5]")), "contact");
+}
+
+TEST(MeshScenes, TheClearSearchFindsTheSame) {
+  for (const std::string scene : {"interlocked_rings.yaml", "bolt_in_nut.yaml"}) {
+    const Table fast = ask(scene), clear = ask(scene, "--clear");
+    EXPECT_EQ(status(clear), status(fast)) << scene;
+    EXPECT_NEAR(clear.at(0, "toc"), fast.at(0, "toc"), 1e-5) << scene;
+  }
+  const std::string turned = "--set bodies.1.spin=[0,0,-1.5] ";
+  EXPECT_NEAR(ask("bolt_in_nut.yaml", turned + "--clear").at(0, "toc"),
+              ask("bolt_in_nut.yaml", turned).at(0, "toc"), 1e-5);
+}
+
+TEST(MeshScenes, TheClearSearchSaysWhatItCannotDo) {
+  const std::string start = FC_BIN_DIR "/ch02_hull_hierarchy '";
+  const auto out = scratch("refused");
+  const std::string end = "' --clear --quiet --out '" + out.string() + "'";
+  const Outcome certificate =
+      run(start + (scenes / "interlocked_rings.yaml").string() + end + " --certificate");
+  EXPECT_EQ(certificate.exit_code, 2);
+  EXPECT_NE(certificate.err.find("leave out --clear"), std::string::npos) << certificate.err;
+  std::ofstream(out / "cone.yaml")
+      << "name: cone\ninterval: 1\nshapes:\n  cone: {cone: {radius: 1, length: 1}, density: 1}\n"
+         "bodies:\n  - {shape: cone}\n  - {shape: cone, position: [5, 0, 0], velocity: [-3, 0, 0]}\n";
+  const Outcome cone = run(start + (out / "cone.yaml").string() + end);
+  EXPECT_EQ(cone.exit_code, 2);
+  EXPECT_NE(cone.err.find("hulls of points"), std::string::npos) << cone.err;
 }
 
 TEST(MeshScenes, TheirMeshesAreWhatTheScriptWrites) {

@@ -7,10 +7,10 @@
 #include <filesystem>
 #include <fstream>
 
-#include "ch02_hull_hierarchy/pieces.hpp"
-#include "ch02_hull_hierarchy/study_mesh.hpp"
-#include "ch02_hull_hierarchy/study_motions.hpp"
-#include "ch02_hull_hierarchy/study_search.hpp"
+#include "ch02_hull_hierarchy/convex_pieces.hpp"
+#include "ch02_hull_hierarchy/study/mesh.hpp"
+#include "ch02_hull_hierarchy/study/motions.hpp"
+#include "ch02_hull_hierarchy/study/search.hpp"
 #include "tests/support/test_models.hpp"
 
 namespace {
@@ -34,6 +34,10 @@ TriangleMesh mesh_named(const std::string& name) {
   if (name == "ring") return test::ring(1, 0.4, 12, 8);
   if (name == "star") return test::star(5, 0.5);
   return test::l_prism();
+}
+
+int points_of(const HullModel& model, std::size_t node) {
+  return static_cast<int>(model.tree.nodes[node].points.size());
 }
 
 class StudySearch : public ::testing::TestWithParam<std::string> {};
@@ -137,7 +141,7 @@ TEST(StudyTree, VolumesHoldWhatIsBelow) {
         }
         if (volume != Volume::hull) continue;
         for (std::size_t n = 0; n < hulls.tree.nodes.size(); ++n) {
-          const int before = hulls.tree.nodes[n].point_count, now = volumes.tree.nodes[n].point_count;
+          const int before = points_of(hulls, n), now = points_of(volumes, n);
           EXPECT_TRUE(hulls.tree.nodes[n].leaf() || before <= most ? now == before : now <= most) << n;
         }
       }

@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "ch03_impulse_lcp/study_parts.hpp"
+#include "ch03_impulse_lcp/study/parts.hpp"
 #include "tests/support/run_files.hpp"
 
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "ch04_multibody_stepping/study_parts.hpp"
+#include "ch04_multibody_stepping/study/parts.hpp"
 #include "events.hpp"
 
 namespace {

@@ -1,11 +1,13 @@
 // The clear version of chapter 5's step, beside the fast one: the laws that both must keep, and where bodies are.
-#include "ch05_resting_contact/clear.hpp"
+#include "ch05_resting_contact/clear/clear_resting.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <random>
+#include <tuple>
 
 #include "ch02_hull_hierarchy/model_distance.hpp"
 #include "ch05_resting_contact/resting.hpp"
@@ -235,8 +237,13 @@ std::vector<Smooth> smooth_scenes() {
   const auto text = [](const std::string& t) { return read_rest_scene(t); };
   std::vector<Smooth> list;
   for (const auto& [name, apart] :
-       {std::pair("slope", 5e-6), std::pair("stack", 5e-6), std::pair("valley", 0.01)})
-    list.push_back({name, fc::read_scene({gallery(name), {}, {}, 5}), apart, 1e-12});
+       {std::pair("slope", 5e-6), std::pair("stack", 5e-6), std::pair("valley", 0.01),
+        std::pair("turned", 5e-6), std::pair("islands", 5e-4), std::pair("one_frame", 5e-4)})
+    list.push_back({name, fc::read_scene({gallery(name), {}, {}, 5}), apart, 1e-6});
+  // Bodies that hit corners part ways: in half a second they do so by little.
+  list.push_back({"knocked",
+                  fc::read_scene({gallery("knocked"), {"step.duration=0.4666666666666667"}, {}, 5}), 5e-3,
+                  1e-2});
   list.push_back(
       {"a box that glides and turns",
        text(on_a_floor(box,
@@ -337,6 +344,48 @@ TEST(Clear, RefusesWhatItDoesNotDo) {
   for (const char* more :
        {"drag: {linear: 0.1}\n", "sleep: {after: 0.5, speed: 0.01}\n", "gyroscopic: true\n"})
     EXPECT_THROW(start(read_rest_scene(on_a_floor(ball, body, more))), fc::InputError) << more;
+}
+
+// Runs a scene of the gallery for a third of a second.
+fc_test::Outcome run_program(const std::string& scene, const std::string& options,
+                             const std::filesystem::path& out) {
+  return fc_test::run(FC_BIN_DIR "/ch05_resting_contact " + gallery(scene).string() +
+                      " --quiet --poses --set step.duration=0.3333333333333333 " + options + " --out " +
+                      out.string());
+}
+
+// With the solution as the learner's file the run is the book's, to the byte.
+TEST(ClearProgram, RunsOnTheLearnersPiece) {
+  const auto mine = scratch("mine"), clear_out = scratch("clear"), mine_out = scratch("mine_out");
+  const std::filesystem::path solution = FC_SOURCE_DIR "/solutions/ch05/ex07_resting_step.cpp";
+  std::filesystem::copy_file(FC_BIN_DIR "/../pieces/book/ch05_ex07.so", mine / "ch05_ex07.so");
+  std::ofstream(mine / "ch05_ex07.source") << solution.string() << "\n" << fc_test::contents(solution);
+  setenv("FC_MINE", mine.c_str(), 1);
+  for (const std::string scene : {"stack", "knocked"}) {
+    const auto of_clear = run_program(scene, "--clear", clear_out),
+               of_mine = run_program(scene, "--mine", mine_out);
+    EXPECT_EQ(of_clear.exit_code, 0) << of_clear.err;
+    EXPECT_EQ(of_mine.exit_code, 0) << of_mine.err;
+    for (const char* file : {"poses.csv", "contacts.csv"})
+      EXPECT_TRUE(fc_test::contents(clear_out / file) == fc_test::contents(mine_out / file))
+          << scene << ": " << file << " differs";
+    EXPECT_GT(fc_test::contents(clear_out / "contacts.csv").size(), 1000u) << scene << ": something pushes";
+  }
+  unsetenv("FC_MINE");
+}
+
+TEST(ClearProgram, RefusesInALine) {
+  const auto out = scratch("refused");
+  for (const auto& [scene, options, what] :
+       {std::tuple("bowl", "--clear", "meshes"),
+        std::tuple("stack", "--clear --set sleep.after=1 --set sleep.speed=0.1", "sleep"),
+        std::tuple("stack", "--clear --set solver.method=pgs", "another solver")}) {
+    const auto outcome = run_program(scene, options, out);
+    EXPECT_EQ(outcome.exit_code, 2) << what;
+    EXPECT_NE(outcome.err.find(std::string("the clear version does without ") + what), std::string::npos)
+        << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  }
 }
 
 }  // namespace

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <map>
 
-#include "ch05_resting_contact/moreau_jean.hpp"
-#include "ch05_resting_contact/study_parts.hpp"
+#include "ch05_resting_contact/study/moreau_jean.hpp"
+#include "ch05_resting_contact/study/parts.hpp"
 #include "tests/support/run_files.hpp"
 
 namespace {

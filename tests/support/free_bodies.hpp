@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "ch01_convex_advancement/motion.hpp"
-#include "ch01_convex_advancement/torque_free.hpp"
+#include "ch04_multibody_stepping/torque_free.hpp"
 #include "tests/support/random_shapes.hpp"
 
 namespace fc::test {
@@ -15,7 +15,7 @@ struct FreeBody {
   Vec3 spin;  // rad/s, world
 
   Mat3 inertia() const { return moments.asDiagonal(); }
-  ca::TorqueFree free() const { return {inertia(), rotation, spin}; }
+  world::TorqueFree free() const { return {inertia(), rotation, spin}; }
 };
 
 // Any masses on the three axes give moments that a body can have.
@@ -65,7 +65,7 @@ inline void add_random_effects(Random& random, ca::Motion& a, ca::Motion& b) {
   const auto mass = [&] { return uniform(random, 0.05, 1); };
   for (ca::Motion* m : {&a, &b}) {
     if (integer(random, 0, 1) == 0 || m->spin_rate == 0) continue;
-    m->turn_freely(ca::PrincipalInertia(Mat3(moments_of({mass(), mass(), mass()}).asDiagonal())));
+    world::turn_freely(*m, world::PrincipalInertia(Mat3(moments_of({mass(), mass(), mass()}).asDiagonal())));
   }
   if (integer(random, 0, 1) == 0) return;
   a.drag = magnitude(random, 1e-3, 10);

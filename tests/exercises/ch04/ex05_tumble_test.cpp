@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "ch01_convex_advancement/torque_free.hpp"
+#include "ch04_multibody_stepping/torque_free.hpp"
 
 namespace {
 
@@ -30,7 +30,7 @@ double error_after(double seconds, int steps) {
   const Vec3 spin(0.8, 2, 0.5);
   Tumbler body = tumbler(spin);
   for (int k = 0; k < steps; ++k) step(body, seconds / steps);
-  const fc::ca::TorqueFree exact(Mat3(body.moments.asDiagonal()), Mat3::Identity(), spin);
+  const fc::world::TorqueFree exact(Mat3(body.moments.asDiagonal()), Mat3::Identity(), spin);
   return (body.rotation - exact.rotation_at(seconds)).norm();
 }
 

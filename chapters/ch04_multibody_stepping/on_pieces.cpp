@@ -1,0 +1,32 @@
+#include "ch04_multibody_stepping/on_pieces.hpp"
+
+#include <fmt/format.h>
+
+#include "ch02_hull_hierarchy/hull_model.hpp"
+#include "ch03_impulse_lcp/clear/solver.hpp"
+#include "common/errors.hpp"
+
+namespace fc::world {
+
+void put_on_pieces(World& world, const Scene& scene, const clear::Pieces& pieces) {
+  for (const char* key : {"gyroscopic", "drag"})
+    if (const auto mark = scene.mark(key); mark && (world.effects.gyroscopic || world.effects.drag))
+      throw InputError(*mark,
+                       fmt::format("'{}' bends the motions, and the clear search knows constant spin and "
+                                   "acceleration alone; remove it, or run without --clear and --mine",
+                                   key));
+  for (std::size_t i = 0; i < world.shapes.size(); ++i) {
+    hulls::Model& model = world.models[i];
+    if (model.curved() || !model.parts.empty())
+      throw InputError(
+          "shape " + world.shapes[i].name +
+          ": the clear search knows balls, capsules, hulls of points and meshes; run without --clear and --mine");
+    hulls::add_hulls(model, pieces.hulls);
+  }
+  world.memory.pieces = &pieces.hulls;
+  world.impact.solver = lcp::clear::solver_of(scene.solver, pieces.lcp);
+  world.gap_rule = pieces.gap_rule;
+  world.event_loop = pieces.event_loop;
+}
+
+}  // namespace fc::world

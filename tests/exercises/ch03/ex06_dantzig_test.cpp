@@ -1,0 +1,154 @@
+// Exercise 3.6. First by hand, then against the chapter's fast Dantzig on problems whose answers are known.
+#include "ex06_dantzig.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+#include <string>
+
+#include "ch03_impulse_lcp/dantzig.hpp"
+#include "ch03_impulse_lcp/problem_factory.hpp"
+
+namespace {
+
+using fc::MatX;
+using fc::VecX;
+using fc::lcp::LcpResult;
+using fc::lcp::Status;
+using fc::mine::dantzig;
+
+std::string words(const MatX& A, const VecX& b, const LcpResult& got) {
+  std::ostringstream out;
+  out << "status " << fc::lcp::name(got.status) << " after " << got.pivots << " pivots, z = ("
+      << got.z.transpose() << ") N s, for b = (" << b.transpose() << ") m/s and A, 1/kg, =\n"
+      << A << "\n";
+  return out.str();
+}
+
+// Solves, and holds the result against the contract. `meaning`: what a failure would mean.
+LcpResult expect_solved(const MatX& A, const VecX& b, const char* meaning) {
+  const LcpResult got = dantzig(A, b, 0);
+  EXPECT_EQ(got.status, Status::solved) << words(A, b, got) << meaning;
+  EXPECT_EQ(got.z.size(), b.size()) << words(A, b, got) << "an impulse for each row";
+  EXPECT_EQ(got.w.size(), b.size()) << words(A, b, got) << "w = A z + b for each row";
+  if (got.z.size() != b.size() || got.w.size() != b.size()) return got;
+  EXPECT_TRUE(fc::lcp::acceptable({A, b}, got.z, got.w))
+      << words(A, b, got) << "it says solved, but A z + b = (" << fc::lcp::evaluate(A, b, got.z).transpose()
+      << ") m/s; every z and w must be >= 0, and one of the two 0\n"
+      << meaning;
+  return got;
+}
+
+void expect_no_solution(const MatX& A, const VecX& b, const char* meaning) {
+  const LcpResult got = dantzig(A, b, 0);
+  ASSERT_EQ(got.status, Status::no_solution) << words(A, b, got) << meaning;
+  ASSERT_EQ(got.certificate.size(), b.size()) << "a certificate has a number for each row";
+  ASSERT_TRUE(got.certificate.minCoeff() >= 0 && fc::lcp::certifies_no_solution({A, b}, got.certificate))
+      << words(A, b, got) << "y = (" << got.certificate.transpose()
+      << ") proves nothing: it must be >= 0, A y = (" << (A * got.certificate).transpose()
+      << ") must be 0, and b'y = " << b.dot(got.certificate) << " negative\n"
+      << meaning;
+}
+
+TEST(Ex06Dantzig, ThreeBallsOfTheText) {
+  const MatX A{{1.5, -0.5}, {-0.5, 1.5}};
+  const VecX b{{-3, -1.5}};
+  const LcpResult got = expect_solved(A, b, "the text's worked example");
+  EXPECT_NEAR(got.z[0], 21. / 8, 1e-14) << "N s: the left contact, by hand";
+  EXPECT_NEAR(got.z[1], 15. / 8, 1e-14) << "N s: the right contact, by hand";
+  EXPECT_EQ(got.pivots, 2) << "pivots: each row enters once";
+}
+
+TEST(Ex06Dantzig, WhoDoesNotApproachIsNotPushed) {
+  const LcpResult got = expect_solved(MatX{{1, 0.5}, {0.5, 1}}, VecX{{0, 2}}, "nothing approaches");
+  EXPECT_EQ(got.z, VecX::Zero(2)) << "N s: an impulse without an approach";
+  EXPECT_EQ(got.pivots, 0) << "pivots: there is nothing to do";
+  EXPECT_EQ(dantzig(MatX(0, 0), VecX(0), 0).status, Status::solved) << "no contacts: nothing is wrong";
+}
+
+TEST(Ex06Dantzig, APushThatIsNoLongerNeededEnds) {
+  const double inertia = 9.04 / 12;
+  const auto entry = [&](double x, double y) { return 1 + x * y / inertia; };
+  const MatX A{{entry(-1.3, -1.3), entry(-1.3, -0.4)}, {entry(-0.4, -1.3), entry(-0.4, -0.4)}};
+  const VecX b{{-1.5, -1.5}};
+  const LcpResult got =
+      expect_solved(A, b, "the plank on two posts: while the second post is driven, the first is relieved");
+  EXPECT_EQ(got.z[0], 0)
+      << "N s: the first post would have to pull the plank down; a row whose z has fallen to 0 leaves the basis";
+  EXPECT_NEAR(got.z[1], 1.5 / A(1, 1), 1e-14) << "N s: then the second post bears all";
+  EXPECT_EQ(got.pivots, 3) << "pivots: in, out, in";
+}
+
+TEST(Ex06Dantzig, ARowOutsideComesIn) {
+  const MatX A{{2, -1, 0}, {-1, 2, -1}, {0, -1, 2}};
+  const LcpResult got =
+      expect_solved(A, VecX{{1, 1, -6}}, "a push at the last contact makes the two before it approach");
+  EXPECT_GT(got.z[0], 0)
+      << "N s: w of a row outside the basis has fallen to 0 during the drive; the row enters";
+}
+
+TEST(Ex06Dantzig, ATieDoesNotHideTheSolution) {
+  expect_solved(
+      MatX{{1, -1}, {-1, 1}}, VecX{{1, -1}},
+      "a ball between two walls: when it no longer approaches the one, it just reaches the other, and all is well");
+  expect_solved(MatX{{1, -1, 0}, {-1, 1, 0}, {0, 0, 1}}, VecX{{1, -1, -3}},
+                "the same, and something else beside it");
+}
+
+TEST(Ex06Dantzig, TwoWallsThatContradictEachOther) {
+  expect_no_solution(
+      MatX{{1, -1}, {-1, 1}}, VecX{{-2, 1}},
+      "one wall sends the ball back at 2 m/s, the other allows 1 m/s; the drive that nothing stops is the proof");
+  expect_no_solution(MatX{{0, 0}, {0, 2}}, VecX{{-1, -2}}, "two walls approach, and no impulse moves walls");
+}
+
+TEST(Ex06Dantzig, EqualRows) {
+  const MatX one = MatX::Ones(4, 4);
+  const LcpResult got =
+      expect_solved(one, VecX::Constant(4, -2), "one contact, listed four times: A has rank 1");
+  EXPECT_NEAR(got.z.sum(), 2, 1e-12) << "N s: who shares the impulse is free, the sum is not";
+}
+
+TEST(Ex06Dantzig, OtherUnits) {
+  const MatX A{{1.5, -0.5}, {-0.5, 1.5}};
+  const VecX b{{-3, -1.5}};
+  for (const double factor : {std::ldexp(1.0, -40), std::ldexp(1.0, 40)}) {
+    const LcpResult slow = expect_solved(A, factor * b, "velocities in another unit");
+    EXPECT_NEAR(slow.z[0] / factor, 21. / 8, 1e-12)
+        << "N s: slow bodies are not bodies at rest; compare w with b, not with 1e-9";
+    const LcpResult light = expect_solved(factor * A, b, "masses in another unit");
+    EXPECT_NEAR(light.z[0] * factor, 21. / 8, 1e-12) << "N s: 'small' depends on the unit of A";
+  }
+}
+
+TEST(Ex06Dantzig, StopsAtTheLimit) {
+  const fc::lcp::KnownProblem p = fc::lcp::make_problem(fc::lcp::Family::random_spd, 12, 1);
+  ASSERT_GT(dantzig(p.A, p.b, 0).pivots, 3);
+  const LcpResult got = dantzig(p.A, p.b, 3);
+  EXPECT_EQ(got.status, Status::limit) << "three pivots are not enough here, and unsolved is not solved";
+  EXPECT_LE(got.pivots, 3) << "pivots: the caller allowed three";
+}
+
+TEST(Ex06Dantzig, AgreesWithTheFastOne) {
+  using fc::lcp::Family;
+  for (const Family family :
+       {Family::random_spd, Family::degenerate, Family::rank_deficient, Family::duplicate_contacts,
+        Family::stack, Family::box_heap, Family::graded, Family::infeasible})
+    for (const int n : {8, 20, 40})
+      for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+        const fc::lcp::KnownProblem p = fc::lcp::make_problem(family, n, seed);
+        const LcpResult got = dantzig(p.A, p.b, 0), fast = fc::lcp::solve_dantzig(p.lcp());
+        ASSERT_EQ(got.status, fast.status)
+            << "family " << family << ", " << n << " rows, seed " << seed
+            << ": the chapter's fast Dantzig ends so; did a tie, or a row that depends on "
+               "the basis, lead yours astray?";
+        if (got.status != Status::solved) continue;
+        ASSERT_LE((fc::lcp::evaluate(p.A, p.b, got.z) - fast.w).lpNorm<Eigen::Infinity>(),
+                  1e-9 * p.b.lpNorm<Eigen::Infinity>())
+            << "m/s: the velocities of family " << family << ", " << n << " rows, seed " << seed
+            << "; they are unique";
+      }
+}
+
+}  // namespace
