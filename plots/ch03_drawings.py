@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from sketch import DARK, PALE, arrow, ball, bare, body, box, length, note
+from sketch import DARK, PALE, arrow, ball, bare, body, box, note
 from style import BLUE, GREEN, GREY, ORANGE, RED, SKY, PlotError, Table, plt, save
 
 FLOOR = "#D8D8D8"
@@ -43,7 +43,7 @@ def one_by_one(run: Path):
     def rows(which: str, how: str) -> list[int]:
         return [k for k in range(len(table)) if scene[k] == which and order[k] == how]
 
-    figure, axes = plt.subplots(2, 4, figsize=(8.6, 4.6), height_ratios=(1.25, 1))
+    figure, axes = plt.subplots(2, 4, figsize=(8.6, 3.9), height_ratios=(1.25, 1))
     orders = ("left first", "right first", "at once")
     titles = ("one by one,\nleft first", "one by one,\nright first", "all at once")
     # The box, some time after it has left the floor; the dashed outline is where it touched.
@@ -81,7 +81,7 @@ def one_by_one(run: Path):
                 panel.plot(*(centre + [0, 0.75]), "o", ms=3.5, color=BLUE)
             note(panel, centre - [0, 0.82], fraction(speed), BLUE)
         panel.set(xlim=(-0.7, 3), ylim=(-1.35, 1.1))
-    note(axes[1][0], (1.15, -1.22), "m/s, to the right", BLUE, fontsize=8.5)
+    note(axes[1][0], (1.15, -1.2), "m/s, to the right", BLUE, fontsize=8.5)
     return figure
 
 
@@ -103,29 +103,31 @@ def contact(run: Path):
     arrow(left, a, p, GREY, 1.2)
     note(left, 0.5 * (a + p) + [-0.09, 0.05], "$r_A$", GREY, fontsize=10)
     arrow(left, b, p, GREY, 1.2)
-    note(left, 0.5 * (b + p) + [-0.1, 0.06], "$r_B$", GREY, fontsize=10)
+    note(left, 0.5 * (b + p) + [0.1, -0.06], "$r_B$", GREY, fontsize=10)
     tangent = np.array([n[1], -n[0]])
     left.plot(*np.array([p - 0.5 * tangent, p + 0.5 * tangent]).T, color=GREY, lw=0.8, ls=(0, (4, 3)))
     arrow(left, p, p + 0.48 * n, BLUE, 2)
     note(left, p + 0.52 * n + [-0.02, 0.07], "$n$", BLUE, fontsize=11)
-    arrow(left, p, p - 0.3 * n, ORANGE, 2)
-    note(left, p - 0.36 * n + [0.14, -0.0], "$-j\\,n$ on A", ORANGE, ha="left")
+    for sign, name, at in ((1, "+j n on B", (-0.06, 0.02)), (-1, "−j n on A", (-0.02, -0.09))):  # beside n, so that both are seen
+        side = p - sign * 0.035 * tangent
+        arrow(left, side, side + sign * 0.3 * n, ORANGE, 2)
+        note(left, side + sign * 0.3 * n + at, name, ORANGE, ha="right" if sign > 0 else "left")
     left.plot(*p, "o", ms=5, color=RED, zorder=5)
-    note(left, p + [-0.09, 0.06], "$p$", RED, fontsize=11)
+    note(left, p + [-0.13, 0.02], "$p$", RED, fontsize=11)
     arrow(left, b, b + 0.22 * named["v_B"], SKY)
     note(left, b + 0.22 * named["v_B"] + [0.12, -0.02], "$v_B$", SKY, fontsize=10)
-    note(left, (-0.28, -0.22), "A, at rest")
+    note(left, (0, -0.3), "A, at rest")
     note(left, p + 2 * along + [-0.02, 0.1], "B")
     left.set(xlim=(-0.6, 1.55), ylim=(-0.62, 1.4))
     bare(right, "its row, from the code", equal=False)
     speed, mass_term = named["a, v"][1], named["a, v"][0]
-    lines = [("point", f"$p = ({p[0]:.2f}, {p[1]:.2f})$ m"), ("normal, from A to B", f"$n = ({n[0]:.2f}, {n[1]:.2f})$"),
-             ("lever arm on A", f"$r_A\\times n = {named['r_A x n'][1] + 0:.2f}$ m"), ("lever arm on B", f"$r_B\\times n = {named['r_B x n'][1]:.2f}$ m"),
-             ("speed of separation", f"$v^- = {speed:.2f}$ m/s"), ("answer to 1 N s", f"$a = {mass_term:.2f}$ /kg")]
+    lines = [("point p", f"({p[0]:.2f}, {p[1]:.2f}) m"), ("normal n, from A to B", f"({n[0]:.2f}, {n[1]:.2f})"),
+             ("r × n on A", f"{abs(named['r_A x n'][1]):.2f} m"), ("r × n on B", f"{named['r_B x n'][1]:.2f} m"),
+             ("speed of separation v", f"{speed:.2f} m/s"), ("answer a to 1 N s", f"{mass_term:.2f} /kg")]
     for k, (what, text) in enumerate(lines):
         y = 0.92 - 0.165 * k
         note(right, (0.0, y), what, GREY, ha="left")
-        note(right, (0.52, y), text.replace("-", "−") if "$" not in text else text, DARK, ha="left", fontsize=10)
+        note(right, (0.52, y), text.replace("-", "−"), DARK, ha="left", fontsize=10)
     right.set(xlim=(0, 1), ylim=(0, 1))
     return figure
 
@@ -187,11 +189,11 @@ def cones(run: Path):
     bare(left, "one row: one of the two is 0")
     arrow(left, (0, 0), (1.25, 0), DARK, 1)
     arrow(left, (0, 0), (0, 1.25), DARK, 1)
-    note(left, (1.27, -0.1), "$z_i$, impulse", ha="right", va="top")
-    note(left, (0.04, 1.27), "$w_i$, speed", ha="left")
-    left.plot([0, 0, 1.12], [1.12, 0, 0], color=BLUE, lw=4.5, solid_capstyle="round", solid_joinstyle="round")
+    note(left, (1.27, -0.1), "zᵢ, impulse", ha="right", va="top")
+    note(left, (0.04, 1.27), "wᵢ, speed beyond the law", ha="left")
+    left.plot([0, 0, 1.12], [1.12, 0, 0], color=BLUE, lw=4.5, solid_capstyle="round", solid_joinstyle="round", zorder=5)
     note(left, (0.07, 0.72), "separates:\nno push", BLUE, ha="left")
-    note(left, (0.62, 0.14), "pushes: $w_i=0$", BLUE)
+    note(left, (0.62, 0.14), "pushes: no more speed", BLUE)
     note(left, (0.72, 0.5), "pushes\nthough it separates:\nnot allowed", RED, fontsize=8.5)
     left.set(xlim=(-0.25, 1.4), ylim=(-0.3, 1.4))
     bare(right, "two rows: who pushes, for every $b$")
@@ -200,7 +202,7 @@ def cones(run: Path):
                                 ((1.9, -1.6), "only contact 2\npushes", DARK), ((-1.05, -2.35), "both push", DARK)):
         note(right, where, text, colour)
     right.plot(*b, "o", ms=7, color=RED, zorder=6)
-    note(right, b + [-0.1, -0.42], f"our $b$ = ({b[0]:g}, {b[1]:g})".replace("-", "−"), RED)
+    note(right, b + [-0.1, -0.42], f"our b = ({b[0]:g}, {b[1]:g})".replace("-", "−"), RED)
     right.set(xlim=(-4.7, 4.3), ylim=(-4.1, 4.0))
     return figure
 
@@ -216,17 +218,18 @@ def residual(run: Path):
     figure, axes = plt.subplots(1, 2, figsize=(8.6, 3.0))
     for panel, k in zip(axes, sweeps):
         panel.plot([0, 0, 5], [1.2, 0, 0], color=BLUE, lw=3.5, solid_joinstyle="round")
-        for i, (colour, side) in enumerate(((ORANGE, "left"), (GREEN, "left"))):
+        for i, colour in enumerate((ORANGE, GREEN)):
             x, y = scale[i] * z[k, i], w[k, i]
             off = min(x, y, key=abs)
             panel.plot(x, y, "o", ms=7, color=colour)
-            note(panel, (x, y + (0.14 if y >= -1e-9 else -0.16)), f"row {i + 1}", colour)
+            note(panel, (x, y + (0.14 if y > -0.3 else -0.16)), f"row {i + 1}", colour)
             if abs(off) > 1e-9:
-                arrow(panel, (x, y), (x, 0), RED, 1.4, "<|-|>", shrinkA=4)
-                note(panel, (x + 0.1, y / 2), f"min$(s_iz_i,\\,w_i)$ = {off:.2f} m/s".replace("-", "−"), RED, ha="left")
-        panel.set(xlim=(-0.3, 6.6), ylim=(-1.15, 1.35), xlabel="$s_i z_i$ [m/s]")
-        panel.set_title(f"after sweep {table['step'][k]:.0f} of projected Gauss–Seidel: residual {table['residual'][k]:.3f}", fontsize=9)
-    axes[0].set_ylabel("$w_i$ [m/s]")
+                if abs(off) > 0.3:
+                    arrow(panel, (x, y), (x, 0), RED, 1.4, "<|-|>", shrinkA=4)
+                note(panel, (x + 1.8, min(y / 2, -0.3)), f"min(s z, w) = {off:.2f} m/s".replace("-", "−"), RED)
+        panel.set(xlim=(-0.3, 7.4), ylim=(-1.15, 1.35), xlabel="sᵢ zᵢ [m/s]")
+        panel.set_title(f"after sweep {table['step'][k]:.0f}: residual {table['residual'][k]:.3f}")
+    axes[0].set_ylabel("wᵢ [m/s]")
     return figure
 
 
@@ -248,18 +251,18 @@ def drive(run: Path):
         arrow(top, (x, 0.85), (x, 0.3), BLUE)
     note(top, (0, 1.02), "1 m/s down", BLUE)
     top.set(xlim=(-1.65, 1.65), ylim=(-1.25, 1.2))
-    low.plot(t, z1, color=ORANGE, label="$z_1$ [N s]")
-    low.plot(t, w1, color=SKY, label="$w_1$ [m/s]")
-    low.plot(t, w2, color=BLUE, lw=2.2, label="$w_2$ [m/s], of the driven row")
+    low.plot(t, z1, color=ORANGE)
+    low.plot(t, w1, color=SKY)
+    low.plot(t, w2, color=BLUE, lw=2.2)
     low.axhline(0, color=DARK, lw=0.7)
-    for x, text in ((leaves, "$z_1$ falls to 0:\nrow 1 leaves the basis"), (t[-1], "$w_2$ reaches 0:\nrow 2 enters")):
+    for x, text in ((leaves, "z₁ falls to 0:\nrow 1 leaves the basis"), (t[-1], "w₂ reaches 0:\nrow 2 enters")):
         low.axvline(x, color=RED, lw=0.9, ls=(0, (4, 3)))
         low.text(x - 0.015, 1.02, text, color=RED, fontsize=8.5, ha="right", va="top")
         low.plot(x, 0, "o", ms=6, color=RED, zorder=5)
     note(low, (0.2, 0.43), "$z_1$", ORANGE, fontsize=10)
     note(low, (1.02, 0.33), "$w_1$", SKY, fontsize=10)
     note(low, (0.3, -0.53), "$w_2$", BLUE, fontsize=10)
-    low.set(xlabel="$z_2$ [N s], raised from 0", ylabel="$z$ [N s], $w$ [m/s]", xlim=(0, 1.3), ylim=(-0.8, 1.08))
+    low.set(xlabel="z₂ [N s], raised from 0", ylabel="z [N s], w [m/s]", xlim=(0, 1.3), ylim=(-0.8, 1.08))
     low.set_title("the drive of row 2")
     return figure
 
@@ -275,20 +278,19 @@ def no_solution(run: Path):
     ball(left, (0, 0), 0.6)
     arrow(left, (0.25, 0), (-0.35, 0), BLUE)
     note(left, (0, 0.18), "1 m/s", BLUE)
-    note(left, (-0.85, -0.98), "wall 1: back at 1 m/s,\n$w_1 = z_1 - z_2 - 2$", fontsize=8.5)
-    note(left, (0.85, -0.98), "wall 2: nothing comes nearer,\n$w_2 = z_2 - z_1 + 1$", fontsize=8.5)
+    note(left, (-0.85, -0.98), "wall 1: back at 1 m/s,\nw₁ = z₁ − z₂ − 2", fontsize=8.5)
+    note(left, (0.85, -0.98), "wall 2: nothing comes nearer,\nw₂ = z₂ − z₁ + 1", fontsize=8.5)
     left.set(xlim=(-1.75, 1.75), ylim=(-1.3, 0.95))
     bare(right, "its cones leave out half of the plane")
     reach = 2.6
     cones_of(right, a, reach)
-    right.plot(*(np.array([[-1, 1], [1, -1]]) * 0.78 * reach), color="none")
     along = np.array([1, -1]) / np.sqrt(2)
     right.plot(*np.array([-reach * along, reach * along]).T, color=RED, lw=1, ls=(0, (4, 3)))
     right.plot(*b, "o", ms=7, color=RED, zorder=6)
-    note(right, b + [-0.1, -0.35], f"$b$ = ({b[0]:g}, {b[1]:g})".replace("-", "−"), RED)
+    note(right, b + [-0.1, -0.35], f"b = ({b[0]:g}, {b[1]:g})".replace("-", "−"), RED)
     arrow(right, (0, 0), 0.62 * reach * y / np.linalg.norm(y), GREEN, 2)
     note(right, 0.72 * reach * y / np.linalg.norm(y) + [0.25, 0.1], "$y$", GREEN, fontsize=11)
-    note(right, (-0.95, -1.75), "here $y^T\\!b < 0$:\nno answer", RED)
+    note(right, (-0.95, -1.75), "here yᵀb < 0:\nno answer", RED)
     right.set(xlim=(-3.6, 3.4), ylim=(-3.0, 3.1))
     return figure
 
@@ -301,15 +303,15 @@ def methods(run: Path):
     method = np.array(table.text("method"))
     points = table.vectors("z1", "z2")
     figure, axes = plt.subplots(2, 2, figsize=(8.6, 6.6), sharex=True, sharey=True)
-    x, y = np.meshgrid(np.linspace(-0.2, 3.4, 120), np.linspace(-0.2, 2.7, 120))
+    x, y = np.meshgrid(np.linspace(-0.2, 4.2, 70), np.linspace(-0.2, 3.2, 70))
     hill = 0.5 * (a[0, 0] * x**2 + 2 * a[0, 1] * x * y + a[1, 1] * y**2) + b[0] * x + b[1] * y
     least = 0.5 * b @ z
     names = {"dantzig": ("Dantzig: a row at a time,\nthe others stay right", BLUE), "lemke": ("Lemke: along the edges\nof an easier problem", GREEN),
-             "pgs": ("projected Gauss–Seidel:\nrow after row, again and again", ORANGE), "interior_point": ("interior point: along the central path,\n$z_iw_i=\\mu\\to0$", RED)}
+             "pgs": ("projected Gauss–Seidel:\nrow after row, again and again", ORANGE), "interior_point": ("interior point: through the middle,\nz w = μ in each row, μ to 0", RED)}
     for panel, (name, (title, colour)) in zip(axes.flat, names.items()):
         panel.contour(x, y, hill - least, levels=[0.02, 0.1, 0.3, 0.7, 1.4, 2.4, 4, 6], colors="#CFCFCF", linewidths=0.8)
         for i, style in ((0, (0, (5, 2))), (1, (0, (1.5, 2)))):
-            line = np.array([-0.5, 4])
+            line = np.array([-0.5, 5])
             panel.plot(line, -(b[i] + a[i, 0] * line) / a[i, 1], color=GREY, lw=1, ls=style)
         path = points[method == name]
         if name == "pgs":  # from sweep to sweep first z_1 changes, then z_2
@@ -320,20 +322,21 @@ def methods(run: Path):
             panel.plot(*path.T, "^", ms=6, color=colour)
         elif name == "interior_point":
             panel.plot(*path.T, color=colour)
+            panel.plot(*path[::5].T, "D", ms=5, color=colour)
         else:
             panel.plot(*path.T, "o-", ms=6, color=colour)
         panel.plot(*z, "*", ms=13, color="black", zorder=6)
         panel.set_title(title, fontsize=9)
-        panel.set(xlim=(-0.2, 3.4), ylim=(-0.2, 2.7), aspect="equal")
+        panel.set(xlim=(-0.2, 4.2), ylim=(-0.2, 3.2), aspect="equal")
         panel.axhline(0, color=DARK, lw=0.7)
         panel.axvline(0, color=DARK, lw=0.7)
         panel.grid(False)
-    axes[0, 0].text(3.32, 0.12, "$w_1=0$", color=GREY, fontsize=9, ha="right")
-    axes[0, 0].text(0.06, 1.25, "$w_2=0$", color=GREY, fontsize=9)
+    axes[0, 0].text(3.0, 2.7, "w₁ = 0", color=GREY, fontsize=9)
+    axes[0, 0].text(0.1, 1.3, "w₂ = 0", color=GREY, fontsize=9)
     for panel in axes[1]:
-        panel.set_xlabel("$z_1$ [N s]")
+        panel.set_xlabel("z₁ [N s]")
     for panel in axes[:, 0]:
-        panel.set_ylabel("$z_2$ [N s]")
+        panel.set_ylabel("z₂ [N s]")
     return figure
 
 

@@ -76,6 +76,7 @@ TEST(ClearSolver, LeavesOtherMethodsAndBoundsAlone) {
   EXPECT_EQ(clear::solver_of(lemke, {&nothing})({kMatrix, kVector}).status, Status::solved);
   const VecX lower = VecX::Constant(2, -1);
   EXPECT_EQ(clear::solver_of(SolverSpec(), {})({kMatrix, kVector, &lower}).status, Status::unsuited);
+  EXPECT_EQ(clear::solver_of(SolverSpec(), {})({MatX{{2, 1}, {-1, 2}}, kVector}).status, Status::unsuited);
 }
 
 }  // namespace

@@ -213,6 +213,41 @@ TEST_F(Program, WritesTheSameBytesAgain) {
   EXPECT_EQ(read_text(folder_ / "out/contacts.csv"), contacts);
 }
 
+// Velocities, not impulses: these need not be unique.
+TEST_F(Program, ClearFindsTheSameVelocities) {
+  for (const char* scene : {"three_balls", "newtons_cradle", "box_on_floor"}) {
+    ASSERT_EQ(run(scenes_ / (std::string(scene) + ".yaml")), 0) << errors();
+    const auto fast = table("contacts.csv");
+    ASSERT_EQ(run(scenes_ / (std::string(scene) + ".yaml"), "--clear"), 0) << errors();
+    const auto clear = table("contacts.csv");
+    ASSERT_EQ(clear.size(), fast.size()) << scene;
+    for (std::size_t i = 1; i < clear.size(); ++i)
+      EXPECT_NEAR(std::stod(clear[i][11]), std::stod(fast[i][11]), 1e-14)
+          << scene << ", contact " << i << ", m/s";
+  }
+  EXPECT_EQ(run(scenes_ / "no_solution.yaml", "--clear"), 3);
+  EXPECT_EQ(table("solution.csv")[0], (Row{"row", "z", "w", "y"}));
+}
+
+TEST_F(Program, MineWritesTheBytesOfClear) {
+  const fs::path module = fs::path(FC_BIN_DIR).parent_path() / "pieces/book/ch03_ex06.so";
+  const fs::path source = fs::path(FC_SOURCE_DIR) / "solutions/ch03/ex06_dantzig.cpp";
+  if (!fs::exists(module)) GTEST_SKIP() << "the piece is not built";
+  fs::create_directories(folder_ / "mine");
+  fs::copy_file(module, folder_ / "mine/ch03_ex06.so");
+  std::ofstream(folder_ / "mine/ch03_ex06.source") << source.string() << "\n" << read_text(source);
+  setenv("FC_MINE", (folder_ / "mine").c_str(), 1);
+  for (const char* scene : {"three_balls.yaml", "box_on_floor.yaml", "redundant.yaml"}) {
+    ASSERT_EQ(run(scenes_ / scene, "--clear"), 0) << errors();
+    const std::string clear = read_text(folder_ / "out/solution.csv");
+    ASSERT_EQ(run(scenes_ / scene, "--mine"), 0) << errors();
+    EXPECT_EQ(errors(), "");
+    EXPECT_EQ(read_text(folder_ / "out/solution.csv"), clear) << scene;
+    EXPECT_NE(read_text(folder_ / "stdout").find("yours"), std::string::npos);
+  }
+  unsetenv("FC_MINE");
+}
+
 TEST_F(Program, LeavesBodiesThatDoNotApproachAlone) {
   ASSERT_EQ(run(scenes_ / "newtons_cradle.yaml", "--set bodies.0.velocity=[-1,0,0]"), 0) << errors();
   EXPECT_EQ(table("contacts.csv").size(), 1u);

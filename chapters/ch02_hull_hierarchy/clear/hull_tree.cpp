@@ -6,6 +6,7 @@
 namespace fc::hulls::clear {
 namespace {
 
+// ANCHOR: build
 constexpr std::size_t kKeepAll = 24;  // points: to find out which are inside costs more than to look at them
 
 Eigen::AlignedBox3d box_of(const std::vector<Vec3>& points) {
@@ -14,7 +15,6 @@ Eigen::AlignedBox3d box_of(const std::vector<Vec3>& points) {
   return box;
 }
 
-// ANCHOR: build
 struct TreeBuilder {
   const std::vector<std::vector<Vec3>>& pieces;
   std::vector<Vec3> middles;  // of the pieces' boxes

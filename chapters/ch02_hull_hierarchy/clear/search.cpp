@@ -6,11 +6,11 @@
 namespace fc::hulls::clear {
 namespace {
 
+// ANCHOR: waiting
 constexpr double kOpenBelow = 0.2;  // of both radii: with less room a pair is opened
 constexpr double kShorter = 1e-12;  // of a step: its own rounding
 constexpr double kRoughly = 0.05;   // of both radii: how precisely a gap of inner nodes is wanted
 
-// ANCHOR: waiting
 // Two nodes, and until when they are proved to keep the target gap.
 struct WaitingPair {
   double time;  // s

@@ -8,7 +8,7 @@ namespace {
 
 LcpResult checked(const Lcp& problem, const SolverSpec& spec, DantzigFunction* dantzig) {
   check_arguments(problem);
-  if (problem.boxed()) return refused(problem, Status::unsuited);
+  if (problem.boxed() || problem.A != problem.A.transpose()) return refused(problem, Status::unsuited);
   const LcpResult given = dantzig(problem.A, problem.b, spec.limit);
   const bool whole = given.z.size() == problem.size();
   LcpResult result = whole ? judged(problem, given.z, given.status) : refused(problem, Status::limit);

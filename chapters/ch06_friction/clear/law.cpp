@@ -10,6 +10,11 @@ constexpr int kSweeps = 4000;
 constexpr double kWanted = 1e-11, kAccepted = 1e-6;  // residuals
 constexpr double kSticking = 1e-9;  // a contact inside its cone by more than this part of it sticks
 
+// N s, world: what r has of contact i.
+Vec3 in_world(const lcp::Contact& contact, const VecX& r, std::size_t i) {
+  return contact_frame(contact.normal) * r.segment<3>(3 * static_cast<Eigen::Index>(i));
+}
+
 // Each contact three times: along its normal, and along two tangents.
 std::vector<lcp::Contact> three_rows(std::span<const lcp::Contact> contacts) {
   std::vector<lcp::Contact> rows;
@@ -23,21 +28,15 @@ std::vector<lcp::Contact> three_rows(std::span<const lcp::Contact> contacts) {
   return rows;
 }
 
-void apply(std::span<RigidBody> bodies, const std::vector<lcp::Contact>& rows, const VecX& r) {
-  for (int i = 0; i < std::ssize(rows); ++i)
-    lcp::apply_impulse(bodies, rows[static_cast<std::size_t>(i)], r[i]);
-}
-
-// Chapter 5's push with three rows a contact: impulses r that Coulomb's law allows for the velocities after, with room (m/s, by
-// rows) added. No solution: velocities stay.
-bool push(ContactFunction* solve_contact, std::span<RigidBody> bodies, std::span<const lcp::Contact> contacts,
-          const VecX& mu, const VecX& room, VecX& r, int& sweeps) {
+// Chapter 5's push with three rows a contact: impulses r that Coulomb's law allows for the velocities after, A r + J v + spare.
+bool push(std::span<RigidBody> bodies, std::span<const lcp::Contact> contacts, const VecX& spare,
+          const VecX& mu, ContactFunction* solve_contact, VecX& r, int& sweeps) {
   if (contacts.empty()) return true;
-  const std::vector<lcp::Contact> rows = three_rows(contacts);
-  const lcp::ImpactProblem problem = lcp::assemble(bodies, rows);
-  const VecX b = problem.v_before + room;
-  if (!sweep_contacts(solve_contact, {problem.A, b, mu}, r, sweeps)) return false;
-  apply(bodies, rows, r);
+  const lcp::ImpactProblem rows = lcp::assemble(bodies, three_rows(contacts));
+  const VecX b = rows.v_before + spare;
+  if (!sweep_contacts(solve_contact, {rows.A, b, mu}, r, sweeps)) return false;
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    lcp::apply_impulse(bodies, contacts[i], in_world(contacts[i], r, i));
   return true;
 }
 
@@ -65,17 +64,17 @@ IslandResult ClearLaw::push(const ContactSet& set, std::span<const double> limit
   if (!rubs(set)) return CoulombLaw::push(set, limits, impulses, options);
   const auto n = static_cast<Eigen::Index>(set.contacts.size());
   const VecX mu = Eigen::Map<const VecX>(mu_.data(), n);
-  VecX room(3 * n), r(3 * n);
+  VecX spare(3 * n), r(3 * n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const std::size_t c = static_cast<std::size_t>(i);
     const Mat3 frame = contact_frame(set.contacts[c].normal);
-    room.segment<3>(3 * i) = Vec3(limits[c], 0, 0);
-    if (!set.bends.empty()) room.segment<3>(3 * i) += frame.transpose() * set.bends[c];
+    spare.segment<3>(3 * i) = Vec3(limits[c], 0, 0);
+    if (!set.bends.empty()) spare.segment<3>(3 * i) += frame.transpose() * set.bends[c];
     r.segment<3>(3 * i) = frame.transpose() * impulses[c];
   }
   int sweeps = 0;
   IslandResult result;
-  result.solved = clear::push(solve_contact_, set.bodies, set.contacts, mu, room, r, sweeps);
+  result.solved = clear::push(set.bodies, set.contacts, spare, mu, solve_contact_, r, sweeps);
   work_ += static_cast<double>(n) * sweeps;
   holds_.assign(set.contacts.size(), 0);
   if (!result.solved) {
@@ -86,7 +85,7 @@ IslandResult ClearLaw::push(const ContactSet& set, std::span<const double> limit
   for (Eigen::Index i = 0; i < n; ++i) {
     const std::size_t c = static_cast<std::size_t>(i);
     const Vec3 own = r.segment<3>(3 * i);
-    impulses[c] = contact_frame(set.contacts[c].normal) * own;
+    impulses[c] = in_world(set.contacts[c], r, c);
     holds_[c] = own[0] > 0 && own.tail<2>().norm() < (1 - kSticking) * mu[i] * own[0];
   }
   return result;
