@@ -13,7 +13,7 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 
 from sketch import DARK, arrow, ball, bare, body, note
-from style import BLUE, GREEN, GREY, ORANGE, PURPLE, Table, plot_main
+from style import BLUE, GREEN, GREY, ORANGE, PURPLE, RED, Table, plot_main
 
 BOUNDS = {"naive": (ORANGE, "o-"), "directional": (GREEN, "s-"), "projected": (PURPLE, "x--"), "second_order": (BLUE, "o-")}
 
@@ -60,16 +60,16 @@ def draw_corner(axes: plt.Axes) -> None:
     body(axes, [(0, 0), (-0.75, -0.85), (0.75, -0.85)])
     note(axes, (0, -0.55), "corner of\nthe brick", DARK)
     axes.plot([-1, 1], [0, 0], color=GREY, lw=1, ls=":")
-    ball(axes, (0, 0.3), 0.3, "none", BLUE)
+    ball(axes, (0, 0.3), 0.3, "none", RED)
     angle = math.radians(35)
     start = (-0.85 * math.cos(angle), 0.3 + 0.85 * math.sin(angle))
-    arrow(axes, start, (0, 0.3), BLUE)
+    arrow(axes, start, (0, 0.3), RED)
     axes.plot([-0.95, 0], [0.3, 0.3], color=GREY, lw=0.8, ls=":")
-    note(axes, (-0.62, 0.43), "angle", BLUE)
-    note(axes, (start[0], start[1] + 0.1), "a hit", BLUE)
-    ball(axes, (0.05, 1.5), 0.3, "none", ORANGE)
-    arrow(axes, (-0.8, 1.5), (0.9, 1.5), ORANGE)
-    note(axes, (-0.6, 1.62), "a miss", ORANGE)
+    note(axes, (-0.62, 0.43), "angle", RED)
+    note(axes, (start[0], start[1] + 0.1), "a hit", RED)
+    ball(axes, (0.05, 1.5), 0.3, "none", DARK)
+    arrow(axes, (-0.8, 1.5), (0.9, 1.5), DARK)
+    note(axes, (-0.6, 1.62), "a miss", DARK)
     axes.set(xlim=(-1.05, 1.05), ylim=(-0.95, 1.9))
 
 

@@ -361,7 +361,7 @@ def corners(runs: Path) -> plt.Figure:
     right.axhline(bound["now"][0], color=ORANGE, lw=1.4, ls="--")
     note(right, (times[-1], bound["bound"][0] + 0.09), "the bound, |n × ω| R", BLUE, ha="right")
     note(right, (0.79, bound["now"][0] - 0.1), "the fastest corner now", ORANGE)
-    note(right, (0.79, 0.82), "the fastest corner\nat each time", RED)
+    note(right, (0.79, 0.8), "the fastest\nat each time", RED)
     right.set(title="3  each corner's speed along n", xlabel="t [s]", ylabel="[m/s]", xlim=(0, times[-1]), ylim=(-0.3, 1.55))
     right.grid(False)
     return figure
@@ -397,7 +397,7 @@ def turned(runs: Path) -> plt.Figure:
     arrow(left, start, start + 0.38 * direction, GREEN)
     note(left, start + 0.38 * direction + [0.02, -0.09], "n + h n × ω", GREEN, style="italic")
     note(left, (reach + 0.02, 0.68), "ahead now", BLUE, ha="left")
-    note(left, now[second] + [-0.08, -0.3], "ahead later", GREEN, ha="right")
+    note(left, (reach + 0.03, now[second][1] - 0.03), "ahead later", GREEN, ha="left")
     left.set(xlim=(-0.85, 1.05), ylim=(-0.95, 0.8))
     t, foretold, rest, true = (table[name] for name in ("h", "foretold", "rest", "true"))
     shown = t <= 0.32

@@ -28,6 +28,7 @@ def draw(run: Path) -> plt.Figure:
                  ylabel="mean overhang / node's radius", ylim=(0, None),
                  xticks=range(0, int(tightness["level"].max()) + 1, 2))
     middle.legend(fontsize=8)
+    middle.set_ylim(0, 1.7)  # room for the legend
     motions, volumes, kinds, most = (np.array(leaves.text(c)) for c in ("motions", "volume", "leaves", "most_points"))
     for kind, colour in (("pieces", BLUE), ("triangles", ORANGE)):
         for family, line in (("far", "o-"), ("close", "s--")):

@@ -1,80 +1,11 @@
-// Hierarchical conservative advancement: the first contact of two moving models.
+// The first contact of two moving models, and the features that are in contact then.
 #pragma once
 
-#include <cstdint>
-#include <limits>
-#include <ostream>
-#include <vector>
-
-#include "ch01_convex_advancement/query.hpp"
-#include "ch02_hull_hierarchy/box_tree.hpp"
-#include "ch02_hull_hierarchy/model_distance.hpp"
+#include "ch02_hull_hierarchy/first_reach.hpp"
 
 namespace fc::hulls {
 
-namespace clear {
-struct Pieces;
-}
-
-// What first_reach looks for: the first time at which the gap has come down to about `target`.
-struct ReachOptions {
-  double interval = 1;      // s
-  double target = 5e-7;     // m, every advance aims at this gap; may be <= 0 for a pair that starts so
-  double slack = 2.5e-7;    // m, a gap of at most target + slack counts as reached
-  double tolerance = 1e-6;  // m, the user's: how precisely distances are wanted near contact
-  double start = -1;        // m, a gap of at most this at t = 0 counts as reached at once
-  std::int64_t max_pairs = 10'000'000;
-};
-
-struct Reach {
-  enum class Status { reached, clear, limit };
-  Status status = Status::clear;
-  double time = 0;  // s; before it the gap is at least `target`. clear: the interval
-  double start_gap = std::numeric_limits<double>::infinity();  // m, the gap at t = 0 is no less, unless
-                                                               // reached at once; rough where much is left
-  LeafPair pair;                // reached: the leaves, with plane, bounds and witness points at `time`
-  std::int64_t node_pairs = 0;  // pairs of boxes that were looked at
-  std::int64_t leaf_pairs = 0;  // pairs of leaves whose distance was computed
-  std::int64_t advances = 0;    // steps that were proved
-};
-inline std::ostream& operator<<(std::ostream& out, Reach::Status status) {
-  constexpr const char* kNames[] = {"reached", "clear", "limit"};
-  return out << kNames[static_cast<int>(status)];
-}
-
-// One pair of nodes in the queue.
-struct Waiting {
-  double time;      // s, until which it is proved clear
-  float apart;      // m, about how far apart the two can be at most
-  float normal[3];  // from A to B, world: the plane that proved it
-  NodeId a, b;      // nodes; leaves are ~leaf
-};
-
-// What a search is given beside the query, and needs memory for. Kept from query to query it allocates nothing.
-struct SearchMemory {
-  std::vector<Waiting> queue;
-  // Temporal coherence, for queries of the same two models one after the other: the nodes of the leaves that
-  // met last.
-  bool coherent = false;
-  NodeId last_a = -1, last_b = -1;
-  // None: the search in boxes. Else these pieces search, in models that have hulls (add_hulls, hull_model.hpp).
-  const clear::Pieces* pieces = nullptr;
-  ca::AdvanceResult* certificate = nullptr;  // the rows of every advance go there, if anywhere
-};
-
-// Pairs of nodes wait in a queue, each with a time until which it is proved to keep the target gap. The
-// earliest is taken and its larger node opened: four boxes side by side against the other's one, each with a
-// gap, a bound on its closing speed, and so a time of its own (box_steps.hpp), with which it goes back into
-// the queue. Advancing and culling are the same thing: what cannot reach the target before the first contact
-// is never opened, and the first pair of leaves at the target is the contact. A pair of leaves has GJK's gap
-// (chapter 1), and its points' own velocities (steps.hpp). After Zhang, Lee, Kim (2006), section 5; there one
-// global step, here each pair has its own time.
-Reach first_reach(const Model& a, const ca::Motion& motion_a, const Model& b, const ca::Motion& motion_b,
-                  const ReachOptions& options, SearchMemory& memory);
-Reach first_reach(const Model& a, const ca::Motion& motion_a, const Model& b, const ca::Motion& motion_b,
-                  const ReachOptions& options);
-
-// The query of contract 1.5 for two models; see fc::ca::AdvanceOptions. Features are all pairs within the
+// Chapter 1's query (fc::ca::AdvanceOptions, AdvanceResult) for two models. Features are all pairs within the
 // tolerance at toc (features.hpp). Throws std::invalid_argument as ca::check_query.
 ca::AdvanceResult advance(const Model& a, const ca::Motion& motion_a, const Model& b,
                           const ca::Motion& motion_b, const ca::AdvanceOptions& options);

@@ -19,11 +19,11 @@ struct OpenedView {
   Vec3f velocity;            // m/s, of the opened body less that of the other
   Vec3f acceleration;        // m/s^2, the same
   float reach, other_reach;  // m
-  // Of spins that change: how much |n x w| may grow, rad/s, and the largest |dw/dt|, rad/s^2 (ca::Motion).
+  // For spins that change: how much |n x w| may grow, rad/s, and the largest |dw/dt|, rad/s^2 (ca::Motion).
   float wander = 0, other_wander = 0, spin_change = 0, other_spin_change = 0;
 };
 
-// From both sides, at one pose; at time t of two motions, or of bodies at rest.
+// The views from both bodies at one pose: at time t of two motions, or of bodies at rest.
 struct PairViews {
   OpenedView a, b;
 };
@@ -38,7 +38,7 @@ struct StepLimits {
   float remaining;  // s, until the end of the interval
 };
 
-// Of each lane: for how long the box is proved to keep the target gap, and along which normal.
+// For each lane: how long the box is proved to keep the target gap, and along which normal.
 struct BoxSteps {
   Lanes time;     // s; 0: not at all; infinity: for ever
   Lanes gap;      // m, along the normal, certified

@@ -18,7 +18,7 @@ struct PieceOptions {
 // its triangles if its hull is part of the solid: then the distance to the hulls is the distance to the
 // solid. A piece is grown over edges while every triangle stays a face of the piece's hull (all its vertices
 // on or below every plane); it is kept only if no other triangle of the mesh passes through the hull's
-// inside, else its later half is given back and asked again. Deviations up to 16 eps times the mesh's size
+// inside, else its later half is given back, and the rest is tested again. Deviations up to 16 eps times the mesh's size
 // are taken for rounding. Needle triangles (height below 1e-4 of the longest side), whose planes are
 // uncertain, stay alone; a mesh that is not solid is taken triangle by triangle. Ehmann and Lin, "Accurate
 // and Fast Proximity Queries Between Polyhedra Using Convex Surface Decomposition" (2001).

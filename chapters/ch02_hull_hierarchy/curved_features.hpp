@@ -8,8 +8,8 @@
 
 namespace fc::hulls {
 
-// All contacts lie along one plane: the one that parts the two best, a face's or a cap's own where that is as
-// good. Both sides' outlines (outline.hpp; of a polyhedron all that lies within twice the tolerance of the
+// All contacts lie along one plane: the one with the largest gap between the two, or a face's or a cap's own where
+// that is as good. Both sides' outlines (outline.hpp; of a polyhedron all that lies within twice the tolerance of the
 // plane) are projected onto it, and the corners of what they share are the contacts: of a cylinder that lies
 // on a box the two ends of its line, of one that stands there eight points of its rim. Each gap is that of
 // the two surfaces there, along the plane's normal; those above `tolerance` (m) are left out. In A's axes,

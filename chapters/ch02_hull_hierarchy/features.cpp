@@ -167,7 +167,7 @@ struct Collector {
     Vec3 n = cross / std::sqrt(size2);
     const Vec3 x = p + s * u, y = q + r * v;
     const double apart = n.dot(y - x);
-    // Which way is from A to B: where the gap is more than rounding, the gap knows; else the cones do.
+    // Which way is from A to B: where the gap is more than rounding, the gap decides; else the cones do.
     if (apart < -tolerance || (std::abs(apart) <= tolerance && n.dot(toward) < 0)) n = -n;
     if (!a.edge_cone(e, n) || !b.edge_cone(f, -n)) return;
     add(x, y, n, FeatureKind::edge, e, FeatureKind::edge, f);

@@ -1,9 +1,10 @@
+#include "ch02_hull_hierarchy/first_reach.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "ch01_convex_advancement/rounding.hpp"
-#include "ch02_hull_hierarchy/advance.hpp"
 #include "ch02_hull_hierarchy/box_steps.hpp"
 #include "ch02_hull_hierarchy/model_distance.hpp"
 #include "ch02_hull_hierarchy/reach_by_pieces.hpp"
@@ -173,7 +174,7 @@ struct Search {
     if (g.lower <= options.target) g = leaf_distance(leaf_a, leaf_b, pose, options.tolerance);
     ++reach.leaf_pairs;
     const double room = g.lower - options.target;
-    // Leaves that overlap by rounding have no upper bound to speak of: then the lower one tells.
+    // Leaves that overlap by rounding have no upper bound to speak of: then the lower one decides.
     const bool at_target = pair.time > 0 ? g.upper <= options.target + options.slack ||
                                                g.lower <= options.target + 0.5 * options.slack
                                          : g.upper <= options.start;
@@ -221,7 +222,7 @@ struct Search {
     // ANCHOR: run
     while (!queue.empty()) {
       const Waiting top = queue.front();
-      // Whether the two touch at the start is told in any case.
+      // Whether the two touch at the start is always answered.
       if (top.time > 0 && reach.node_pairs + reach.leaf_pairs >= options.max_pairs) {
         reach.status = Reach::Status::limit;
         reach.time = top.time;

@@ -11,9 +11,9 @@ namespace fc::hulls {
 double winding_number(const FeatureMesh& mesh, const Vec3& point);
 
 // Whether a part of one model lies inside the other by more than `tolerance` (m), though their surfaces may
-// be apart. Of each component of either a point is asked that lies two tolerances below its own surface: what
-// only rests on the other, flush or in a corner, is outside there. By a ray through the hierarchy; a
-// microsecond or two for 70,000 triangles.
+// be apart. One point of each component of either model is tested, two tolerances below the component's own
+// surface: so what only rests on the other, flush or in a corner, is outside. The test casts a ray through the
+// hierarchy, and takes a microsecond or two for 70,000 triangles.
 bool one_inside_other(const Model& a, const Model& b, const ca::PairPose& pose, double tolerance);
 
 }  // namespace fc::hulls

@@ -38,7 +38,8 @@ void prepare_clear(hulls::Model& model, const Shape& shape, const hulls::clear::
 
 int run(const Scene& scene, const RunContext& context, Summary& summary, const hulls::clear::Pieces& pieces) {
   if (context.clear && context.certificate)
-    throw InputError("--certificate tells of the boxes of the fast search; leave out --clear and --mine");
+    throw InputError(
+        "a certificate is about the boxes of the fast search; leave out --certificate, or --clear and --mine");
   const std::vector<Shape> shapes = build_shapes(scene, false);
   const auto count = [](std::size_t n) { return static_cast<std::int64_t>(n); };
   std::vector<hulls::Model> models;

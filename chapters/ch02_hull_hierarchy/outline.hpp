@@ -8,7 +8,7 @@
 
 namespace fc::hulls {
 
-// What a cylinder or a cone turns towards a direction: a cap, a line of its side, or one point of a rim (or
+// The part of a cylinder or a cone that faces a direction: a cap, a line of its side, or one point of a rim (or
 // the apex). All of it lies on the true surface.
 struct Outline {
   static constexpr int kRim =

@@ -1,8 +1,8 @@
 // The clear search in the place of the fast one.
 #pragma once
 
-#include "ch02_hull_hierarchy/advance.hpp"
 #include "ch02_hull_hierarchy/clear/pieces.hpp"
+#include "ch02_hull_hierarchy/first_reach.hpp"
 
 namespace fc::hulls {
 

@@ -1,4 +1,4 @@
-// Certificates of hierarchies checked: does every row claim what is true of its leaves, and do the rows
+// Checks certificates of hierarchies: does every row claim what is true of its leaves, and do the rows
 // together prove every pair of leaves clear? In long double, without GJK and without the motion bounds, like
 // chapter 1's.
 #pragma once
@@ -12,7 +12,7 @@ namespace fc::hulls {
 // parent's leaves among them, points outside a box; or "". The proof needs nothing else of it.
 std::string check_tree(const Model& model);
 
-// What was asked.
+// The query.
 struct PairQuery {
   const Model& a;
   const Model& b;

@@ -7,7 +7,12 @@
 
 namespace fc::mine {
 
+using ca::clear::check_clear_query;
+using ca::clear::mover;
 using ca::clear::Pieces;
+using ca::clear::report;
+using ca::clear::status_at_start;
+using ca::clear::witness;
 
 // The first contact of two moving convex shapes in [0, options.interval].
 //   pieces: ask pieces.gap (with pieces.closest_point) for gaps and pieces.speed_bound for speeds, so that whoever wrote them is

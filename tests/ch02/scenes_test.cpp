@@ -54,7 +54,7 @@ TEST(MeshScenes, TheClearSearchSaysWhatItCannotDo) {
   const Outcome certificate =
       run(start + (scenes / "interlocked_rings.yaml").string() + end + " --certificate");
   EXPECT_EQ(certificate.exit_code, 2);
-  EXPECT_NE(certificate.err.find("leave out --clear"), std::string::npos) << certificate.err;
+  EXPECT_NE(certificate.err.find("leave out --certificate"), std::string::npos) << certificate.err;
   std::ofstream(out / "cone.yaml")
       << "name: cone\ninterval: 1\nshapes:\n  cone: {cone: {radius: 1, length: 1}, density: 1}\n"
          "bodies:\n  - {shape: cone}\n  - {shape: cone, position: [5, 0, 0], velocity: [-3, 0, 0]}\n";

@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "ch02_hull_hierarchy/model_distance.hpp"
+#include "ch03_impulse_lcp/solver.hpp"
 #include "ch05_resting_contact/resting.hpp"
 #include "support/worlds.hpp"
 
@@ -41,8 +42,9 @@ struct Watched {
   Planner planner;
   Laws worst;
 
-  explicit Watched(const fc::Scene& scene)
-      : world(fc::world::build_world(scene)), dt(scene.step->dt), planner(scene, world, dt) {}
+  template <class... More>
+  explicit Watched(const fc::Scene& scene, const More&... more)
+      : world(fc::world::build_world(scene)), dt(scene.step->dt), planner(scene, world, dt, more...) {}
 
   double energy(double* size = nullptr) const {
     double sum = 0;
@@ -325,11 +327,13 @@ TEST(Clear, KeepsTheLawsInRandomScenes) {
   }
 }
 
-// Piles take it long: only as many frames as a test has time for.
+// Piles take it long: only as many frames as a test has time for, and chapter 3's fast method.
 TEST(Clear, KeepsTheLawsInTheGallery) {
+  fc::resting::clear::Pieces pieces;
+  pieces.world.lcp.dantzig = [](const fc::MatX& A, const fc::VecX& b, int) { return fc::lcp::solve({A, b}); };
   for (const auto& [name, frames] :
        {std::pair("mixed", 42), std::pair("heap", 40), std::pair("cylinders", 8)}) {
-    Watched<ClearResting> watched(fc::read_scene({gallery(name), {}, {}, 5}));
+    Watched<ClearResting> watched(fc::read_scene({gallery(name), {}, {}, 5}), pieces);
     for (int f = 0; f < frames; ++f) watched.frame();
     EXPECT_EQ(broken(watched.worst), "") << name << "\n  " << text(watched.worst);
     EXPECT_GT(watched.worst.plans, 20) << name << ": there was something to do";

@@ -90,7 +90,7 @@ struct Search {
       look.step = (1 - kShorter) * safe_step(pair, hull_a, hull_b, g.normal, t, room);
       ++reach.advances;
     }
-    // Leaves that overlap by rounding have no upper bound to speak of: then the lower one tells.
+    // Leaves that overlap by rounding have no upper bound to speak of: then the lower one decides.
     const bool at_target =
         g.upper <= options.target + options.slack || g.lower <= options.target + 0.5 * options.slack;
     look.reached = both_leaves && ((at_target && t > 0) ||

@@ -11,7 +11,7 @@ constexpr int kFewPoints = 64;  // of an inner hull: more cost more than they ga
 constexpr int kAllPoints = 1'000'000;
 constexpr std::int64_t kMostPairs = 3'000'000;  // of a query: then it counts as given up
 
-// What a search was asked, query by query.
+// What a search answered, query by query, and what it cost.
 struct Tally {
   std::vector<double> nodes, leaves, rounds, ns;
   std::vector<Reach> answers;

@@ -12,14 +12,15 @@ constexpr double kClosed = 1e-6;  // of the margin: how exactly contacts close a
 
 }  // namespace
 
-ClearPlan::ClearPlan(const world::World& world, Contacts& contacts, const clear::Pieces& pieces,
-                     const Island& island, double now_, double length_)
+ClearPlan::ClearPlan(const world::World& world, Contacts& contacts, clear::RestingStepFunction* resting_step,
+                     const clear::LcpFunction& solve_lcp, const Island& island, double now_, double length_)
     : now(now_),
       length(length_),
       members(island.members),
       world_(world),
       contacts_(contacts),
-      pieces_(pieces) {
+      resting_step_(resting_step),
+      solve_lcp_(solve_lcp) {
   const auto is_member = [&](int body) {
     return std::any_of(members.begin(), members.end(), [&](const Member& m) { return m.number == body; });
   };
@@ -51,7 +52,7 @@ bool ClearPlan::has_new_rows() {
 // A chord method: solve, look where the bodies would stand at the end, and solve again with the gaps that they have there.
 bool ClearPlan::close_ends() {
   for (int round = 0; round < kMostRounds; ++round) {
-    result = pieces_.resting_step(problem, pieces_.solve_lcp);
+    result = resting_step_(problem, solve_lcp_);
     if (!result.solved) return false;
     follow_paths();
     double worst = 0;

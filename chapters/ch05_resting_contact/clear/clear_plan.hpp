@@ -1,7 +1,7 @@
 // A plan of an island in the making: its rows, its ends, and the proof of its paths. In the plainest way: see clear_resting.hpp.
 #pragma once
 
-#include "ch05_resting_contact/clear/pieces.hpp"
+#include "ch05_resting_contact/clear/resting_step.hpp"
 #include "ch05_resting_contact/island.hpp"
 
 namespace fc::resting {
@@ -9,8 +9,8 @@ namespace fc::resting {
 // The members of the island, and all that no impulse moves; they stand where they are at the instant.
 class ClearPlan {
  public:
-  ClearPlan(const world::World& world, Contacts& contacts, const clear::Pieces& pieces, const Island& island,
-            double now, double length);
+  ClearPlan(const world::World& world, Contacts& contacts, clear::RestingStepFunction* resting_step,
+            const clear::LcpFunction& solve_lcp, const Island& island, double now, double length);
 
   // Whether there are rows that close_ends() has not seen yet: at first, and after a prove() that found new ones.
   bool has_new_rows();
@@ -42,7 +42,8 @@ class ClearPlan {
 
   const world::World& world_;
   Contacts& contacts_;
-  const clear::Pieces& pieces_;
+  clear::RestingStepFunction* resting_step_;
+  const clear::LcpFunction& solve_lcp_;
   std::vector<Path> paths_;      // of the members
   std::vector<RigidBody> ends_;  // at the end of these, with velocities w
   std::vector<Point> points_;    // of the rows

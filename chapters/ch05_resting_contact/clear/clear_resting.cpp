@@ -96,7 +96,8 @@ Touching touching(const World& world, const Island& island, const std::vector<Ri
 }  // namespace
 
 ClearResting::ClearResting(const Scene& scene, World& world, double dt, const clear::Pieces& pieces)
-    : pieces_(pieces),
+    : resting_step_(pieces.resting_step),
+      solve_lcp_(pieces.solve_lcp()),
       contacts_(world, envelope_of(scene, world, dt)),
       islands_(contacts_, world.bodies.size()),
       no_piles_(world.bodies.size(), -1),
@@ -200,7 +201,7 @@ std::vector<int> ClearResting::go_on(World& world, std::vector<int> bodies, doub
 // A plan for the island: to the frame's end, or half as long, and so on, until its paths are proved.
 void ClearResting::plan(World& world, const Island& island, double now) {
   for (double length = dt_ - now; length > kShortest * (dt_ - now); length *= 0.5) {
-    ClearPlan made(world, contacts_, pieces_, island, now, length);
+    ClearPlan made(world, contacts_, resting_step_, solve_lcp_, island, now, length);
     while (made.has_new_rows() && made.close_ends())
       if (made.prove()) return follow(world, made);
     ++report_.halved;
@@ -222,11 +223,11 @@ void ClearResting::stop_what_closes(const World& world, Island& island, double n
   VecX z, total = VecX::Zero(contacts.size());
   std::vector<lcp::Contact> last;
   for (const int i : lasting) last.push_back(contacts[i]);
-  if (!clear::push(bodies, last, VecX::Zero(last.size()), pieces_.solve_lcp, z))
+  if (!clear::push(bodies, last, VecX::Zero(last.size()), solve_lcp_, z))
     throw failure("cannot be stopped", island.points());
   total(lasting) = z;
   for (int round = 1; round <= kMostBounces && anything_closes(bodies, contacts); ++round) {
-    if (!clear::push(bodies, contacts, VecX::Zero(contacts.size()), pieces_.solve_lcp, z))
+    if (!clear::push(bodies, contacts, VecX::Zero(contacts.size()), solve_lcp_, z))
       throw failure("cannot be stopped", island.points());
     total += z;
     if (!impact || round == kMostBounces) continue;

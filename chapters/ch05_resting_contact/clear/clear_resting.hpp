@@ -1,5 +1,6 @@
 // Chapter 5's step in its clear form: the same plans as resting.hpp, found in the plainest way. For convex bodies, with gravity
-// alone. It runs on the piece of exercise 5.7.
+// alone. It runs on the pieces of exercises 3.6 and 5.7; with world::put_on_pieces() chapter 4's
+// loop does on its own.
 #pragma once
 
 #include <vector>
@@ -51,7 +52,8 @@ class ClearResting : public world::Planner {
   void follow(world::World& world, const ClearPlan& made);
   void report_impulses(const std::vector<world::ImpactRecord>& records, double share);
 
-  clear::Pieces pieces_;
+  clear::RestingStepFunction* resting_step_;  // the pieces
+  clear::LcpFunction solve_lcp_;
   Contacts contacts_;
   IslandFinder islands_;
   std::vector<int> no_piles_;  // of each body: it is in none

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "ch04_multibody_stepping/on_pieces.hpp"
 #include "ch05_resting_contact/clear/clear_resting.hpp"
 
 namespace fc::resting {
@@ -16,6 +17,7 @@ int run_clear_scene(const Scene& scene, const RunContext& context, Summary& summ
   std::unique_ptr<ClearResting> resting;
   ClearReport all, last;
   const auto prepare = [&](world::World& world) {
+    world::put_on_pieces(world, scene, pieces.world);
     resting = std::make_unique<ClearResting>(scene, world, scene.step->dt, pieces);
   };
   const auto step = [&](world::World& world, double, const world::Listeners& listeners) {

@@ -1,19 +1,23 @@
 #include "ch05_resting_contact/clear/pieces.hpp"
 
-#include "ch03_impulse_lcp/solver.hpp"
+#include "ch03_impulse_lcp/clear/solver.hpp"
+#include "common/scene.hpp"
 
 namespace fc::resting::clear {
 
-Pieces::Pieces()
-    : solve_lcp([](const MatX& A, const VecX& b, VecX& z) {
-        const lcp::LcpResult result = lcp::solve({A, b});
-        if (result.status != lcp::Status::solved) return false;
-        z = result.z;
-        return true;
-      }) {}
+LcpFunction Pieces::solve_lcp() const {
+  return [solver = lcp::clear::solver_of(SolverSpec{}, world.lcp)](const MatX& A, const VecX& b, VecX& z) {
+    const lcp::LcpResult result = solver({A, b});
+    if (result.status != lcp::Status::solved) return false;
+    z = result.z;
+    return true;
+  };
+}
 
 std::vector<PieceSlot> slots(Pieces& pieces) {
-  return {slot("ch05/ex07_resting_step", "the heart of a resting step", pieces.resting_step)};
+  std::vector<PieceSlot> all = world::clear::slots(pieces.world);
+  all.push_back(slot("ch05/ex07_resting_step", "the heart of a resting step", pieces.resting_step));
+  return all;
 }
 
 }  // namespace fc::resting::clear

@@ -1,19 +1,22 @@
-// Chapter 5's step in its clear form runs on one piece, which is an exercise.
+// Chapter 5's step in its clear form runs on a piece of its own, and on those of the chapters before.
 #pragma once
 
 #include <vector>
 
+#include "ch04_multibody_stepping/clear/pieces.hpp"
 #include "ch05_resting_contact/clear/resting_step.hpp"
 #include "common/pieces.hpp"
 
 namespace fc::resting::clear {
 
 struct Pieces {
-  LcpFunction solve_lcp;                                    // chapter 3's Dantzig
+  world::clear::Pieces world;                               // chapter 4's, with those before
   RestingStepFunction* resting_step = clear::resting_step;  // 5.7
-  Pieces();
+
+  // 3.6 as 5.7 is handed it. Its answers are checked: it finds what solves the problem, or nothing.
+  LcpFunction solve_lcp() const;
 };
-// In the order of the exercises.
+// In the order of the exercises, the earlier chapters' first.
 std::vector<PieceSlot> slots(Pieces& pieces);
 
 }  // namespace fc::resting::clear
