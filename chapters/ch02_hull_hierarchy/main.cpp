@@ -29,17 +29,14 @@ void record_levels(MotionRecording& motion, int shape, const hulls::HullModel& m
 // Makes a model ready for the clear search, or says what it cannot do.
 void prepare_clear(hulls::Model& model, const Shape& shape, const hulls::clear::Pieces& pieces) {
   if (model.curved() || !model.parts.empty())
-    throw InputError(
-        "shape " + shape.name +
-        ": the clear search knows shapes that are hulls of points, and meshes; leave out --clear "
-        "and --mine");
+    throw InputError("shape " + shape.name +
+                     ": the clear search knows meshes and hulls of points; run without --clear and --mine");
   hulls::add_hulls(model, pieces);
 }
 
 int run(const Scene& scene, const RunContext& context, Summary& summary, const hulls::clear::Pieces& pieces) {
   if (context.clear && context.certificate)
-    throw InputError(
-        "a certificate is about the boxes of the fast search; leave out --certificate, or --clear and --mine");
+    throw InputError("a certificate is about the boxes of the fast search; run without --clear and --mine");
   const std::vector<Shape> shapes = build_shapes(scene, false);
   const auto count = [](std::size_t n) { return static_cast<std::int64_t>(n); };
   std::vector<hulls::Model> models;
