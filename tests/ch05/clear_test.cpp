@@ -369,12 +369,11 @@ TEST(Clear, RefusesWhatItDoesNotDo) {
     EXPECT_THROW(start(read_rest_scene(on_a_floor(ball, body, more))), fc::InputError) << more;
 }
 
-// Runs a scene of the gallery for a third of a second.
+// Runs a scene of the gallery for 1.2 s.
 fc_test::Outcome run_program(const std::string& scene, const std::string& options,
                              const std::filesystem::path& out) {
   return fc_test::run(FC_BIN_DIR "/ch05_resting_contact " + gallery(scene).string() +
-                      " --quiet --poses --set step.duration=0.3333333333333333 " + options + " --out " +
-                      out.string());
+                      " --quiet --poses --set step.duration=1.2 " + options + " --out " + out.string());
 }
 
 // With the solution as the learner's file the run is the book's, to the byte.
