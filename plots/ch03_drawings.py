@@ -222,7 +222,7 @@ def residual(run: Path):
             x, y = scale[i] * z[k, i], w[k, i]
             off = min(x, y, key=abs)
             panel.plot(x, y, "o", ms=7, color=colour)
-            note(panel, (x, y + (0.14 if y > -0.3 else -0.16)), f"row {i + 1}", colour)
+            note(panel, (x, 0.15 if y > -0.3 else y - 0.16), f"row {i + 1}", colour)
             if abs(off) > 1e-9:
                 if abs(off) > 0.3:
                     arrow(panel, (x, y), (x, 0), RED, 1.4, "<|-|>", shrinkA=4)

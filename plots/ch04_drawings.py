@@ -188,7 +188,7 @@ def island(runs: Path) -> plt.Figure:
         axes.plot(x, y, "o", ms=5.5, mfc=RED if impulse > 1e-9 else "white", mec=RED, zorder=5)
     right = 5.0
     for y, mark, text in ((1.5, dict(marker="o", mfc="#FFE9BF", mec=ORANGE, ms=11), f"in the island ({int(bodies['member'].sum())} bodies)"),
-                          (0.95, dict(marker="o", mfc=PALE, mec=GREY, ms=11), "touches nobody: left alone"),
+                          (0.95, dict(marker="o", mfc=PALE, mec=GREY, ms=11), "touches nothing: left alone"),
                           (0.4, dict(marker="o", mfc=RED, mec=RED, ms=6), "contact; the bar is its impulse"),
                           (-0.15, dict(marker="o", mfc="white", mec=RED, ms=6), "contact without an impulse"),
                           (-0.7, dict(marker=r"$\rightarrow$", color=BLUE, ms=12), "velocity afterwards")):

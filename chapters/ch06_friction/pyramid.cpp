@@ -11,7 +11,7 @@
 namespace fc::friction {
 namespace {
 
-constexpr int kTurns = 8;
+constexpr int kMostTurns = 8;
 // m/s, relative to max|b|: a slower slip does not turn a pyramid.
 constexpr double kSlow = 1e-9;
 
@@ -68,7 +68,7 @@ void turn(const ConeProblem& problem, const VecX& u, VecX& angle) {
 ConeResult solve_pyramid(const ConeProblem& problem, const SolveOptions& options) {
   ConeResult best;
   if (refused(problem, options, best)) return best;
-  const int rounds = !options.turned ? 1 : options.limit > 0 ? options.limit : kTurns;
+  const int rounds = !options.turned ? 1 : options.limit > 0 ? options.limit : kMostTurns;
   VecX angle(problem.contacts());
   // Multiples of the golden ratio, less their whole part, are spread evenly and in no order.
   for (Eigen::Index i = 0; i < angle.size(); ++i)

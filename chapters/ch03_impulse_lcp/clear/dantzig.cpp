@@ -1,6 +1,7 @@
 #include "ch03_impulse_lcp/clear/dantzig.hpp"
 
 #include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -8,6 +9,7 @@
 namespace fc::lcp::clear {
 namespace {
 
+// ANCHOR: dantzig
 // A sum below this part of the sizes of its terms is round-off, and counts as 0.
 constexpr double kZero = 1e-11;
 // Below this Schur complement (the diagonal of A is 1) a row depends on the basis.
@@ -24,7 +26,6 @@ VecX solve_basis(const MatX& A, const std::vector<int>& basis, const VecX& r) {
 
 }  // namespace
 
-// ANCHOR: dantzig
 LcpResult dantzig(const MatX& A_given, const VecX& b_given, int limit) {
   const int n = static_cast<int>(b_given.size());
   if (limit == 0) limit = 100 + 50 * n;
