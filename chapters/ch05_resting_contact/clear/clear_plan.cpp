@@ -1,6 +1,7 @@
 #include "ch05_resting_contact/clear/clear_plan.hpp"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 namespace fc::resting {
@@ -128,10 +129,17 @@ bool ClearPlan::is_clear(int i, int j) {
 // ANCHOR_END: prove
 
 void ClearPlan::remember() const {
-  for (const bool mark : {false, true})
-    for (int i = 0; i < std::ssize(points_); ++i)
-      for (ContactPoint& point : points_[i].pair->points)
-        if (!mark || (point.key == points_[i].point.key && result.z[i] > 0)) point.lasts = mark;
+  std::set<const PairContacts*> pushed;
+  for (int i = 0; i < std::ssize(points_); ++i) {
+    if (result.z[i] > 0) pushed.insert(points_[i].pair);
+    for (ContactPoint& point : points_[i].pair->points) point.lasts = false;
+  }
+  for (int i = 0; i < std::ssize(points_); ++i) {
+    const double widest = std::max(problem.rows[i].contact.gap, points_[i].end_gap);
+    if (widest > contacts_.margin() || !pushed.contains(points_[i].pair)) continue;
+    for (ContactPoint& point : points_[i].pair->points)
+      if (point.key == points_[i].point.key) point.lasts = true;
+  }
 }
 
 }  // namespace fc::resting

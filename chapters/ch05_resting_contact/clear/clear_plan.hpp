@@ -19,7 +19,8 @@ class ClearPlan {
   // Whether all that push are in contact, at both ends, and all paths are clear of each other. The points that a pair has at
   // the end of paths that are not clear become rows.
   bool prove();
-  // The points at which the plan pushes are marked: that they close at its end is the other half of their force, and no impact.
+  // Where the plan has pushed two bodies, their points that are in contact at both ends are marked: that these close at its end
+  // is the other half of their force, and no impact.
   void remember() const;
 
   double now, length;  // s

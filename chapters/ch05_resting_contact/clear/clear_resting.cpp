@@ -70,7 +70,7 @@ SceneFailure failure(const char* what, int rows) {
 struct Touching {
   std::vector<lcp::Contact> contacts;  // bodies by their places among the members
   VecX restitution;
-  std::vector<int> lasting;  // those at which a plan has pushed up to now
+  std::vector<int> lasting;  // those of bodies that a plan has pushed up to now
   double fastest = 0;        // m/s: how fast the fastest of the others comes in, < 0
 };
 

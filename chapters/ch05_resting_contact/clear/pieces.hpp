@@ -13,7 +13,8 @@ struct Pieces {
   world::clear::Pieces world;                               // chapter 4's, with those before
   RestingStepFunction* resting_step = clear::resting_step;  // 5.7
 
-  // 3.6 as 5.7 is handed it. Its answers are checked: it finds what solves the problem, or nothing.
+  // 3.6 as 5.7 is handed it. Its answers are checked: it finds what solves the problem, or nothing. Where it gives up,
+  // without a proof that there is none, chapter 3's fast method is asked.
   LcpFunction solve_lcp() const;
 };
 // In the order of the exercises, the earlier chapters' first.
