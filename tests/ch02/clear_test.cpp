@@ -1,6 +1,7 @@
 // The clear tree and search against the fast ones: never late, and where the fast search is.
 #include <gtest/gtest.h>
 
+#include "ch02_hull_hierarchy/advance.hpp"
 #include "ch02_hull_hierarchy/features.hpp"
 #include "ch02_hull_hierarchy/hull_model.hpp"
 #include "ch02_hull_hierarchy/reach_by_pieces.hpp"
