@@ -38,7 +38,7 @@ TEST_P(OnPieces, TheSameImpactsHappen) {
   ASSERT_EQ(found.all.size(), expected.all.size()) << "impacts";
   for (std::size_t i = 0; i < expected.all.size(); ++i) {
     ASSERT_NEAR(found.all[i].t, expected.all[i].t, c.seconds) << "s, impact " << i;
-    EXPECT_GT(found.all[i].contact.gap, 0) << "m, impact " << i;
+    EXPECT_GE(found.all[i].contact.gap, 0) << "m, impact " << i;  // 0: the cradle begins so
   }
   for (std::size_t i = 0; i < fast.bodies.size(); ++i)
     EXPECT_LT((body(clear, static_cast<int>(i)).position - body(fast, static_cast<int>(i)).position).norm(),
@@ -49,7 +49,7 @@ TEST_P(OnPieces, TheSameImpactsHappen) {
 INSTANTIATE_TEST_SUITE_P(Scenes, OnPieces,
                          testing::Values(Comparison{"cradle", 60, 1e-9, 1e-9},
                                          Comparison{"bounce", 120, 1e-5, 1e-4},
-                                         Comparison{"pi", 3, 1e-9, 1e-6},
+                                         Comparison{"pi", 20, 1e-9, 1e-6},
                                          Comparison{"dominoes", 60, 1e-5, 1e-4},
                                          Comparison{"paddle", 40, 1e-5, 1e-4}),
                          [](const auto& c) { return std::string(c.param.scene); });

@@ -297,9 +297,9 @@ TEST(TorqueFree, RefusesWhatIsNoBody) {
 // Known values (Carlson; K at m = 1/2), and the trapezoidal rule, which is exact for smooth periodic
 // functions.
 TEST(Elliptic, Integrals) {
-  EXPECT_NEAR(static_cast<double>(ca::carlson_rf(1, 2, 0)), 1.3110287771460600, 1e-15);
-  EXPECT_NEAR(static_cast<double>(ca::carlson_rf(2, 3, 4)), 0.58408284167715170, 1e-15);
-  EXPECT_NEAR(static_cast<double>(ca::complete_integral(std::sqrt(0.5L), 1, 1, 1)), 1.8540746773013719,
+  EXPECT_NEAR(static_cast<double>(world::carlson_rf(1, 2, 0)), 1.3110287771460600, 1e-15);
+  EXPECT_NEAR(static_cast<double>(world::carlson_rf(2, 3, 4)), 0.58408284167715170, 1e-15);
+  EXPECT_NEAR(static_cast<double>(world::complete_integral(std::sqrt(0.5L), 1, 1, 1)), 1.8540746773013719,
               1e-15);
   for (const Long k : {0.1L, 0.5L, 1.0L, 3.0L})
     for (const Long p : {0.05L, 1.0L, 20.0L}) {
@@ -310,7 +310,7 @@ TEST(Elliptic, Integrals) {
         sum += (0.7L * c * c + 1.9L * s * s) / ((c * c + p * s * s) * std::sqrt(c * c + k * k * s * s));
       }
       sum *= std::numbers::pi_v<Long> / (2 * steps);
-      EXPECT_NEAR(static_cast<double>(ca::complete_integral(k, p, 0.7L, 1.9L) / sum), 1, 1e-15);
+      EXPECT_NEAR(static_cast<double>(world::complete_integral(k, p, 0.7L, 1.9L) / sum), 1, 1e-15);
     }
 }
 

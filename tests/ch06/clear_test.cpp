@@ -9,7 +9,7 @@
 
 #include "ch06_friction/clear/law.hpp"
 #include "cones.hpp"
-#include "support/run_files.hpp"
+#include "tests/support/run_files.hpp"
 
 namespace {
 
