@@ -61,8 +61,8 @@ def what_is_built(object_file: str) -> str:
         return f"chapter {chapter[1]}'s library (once, a minute or two)"
     if object_file.startswith("common/"):
         return "what all chapters share (once, about a minute)"
-    if part := re.search(r"(ch\d+)_(ex\d+)_(tests|exercise|demo)\.dir", object_file):
-        return {"tests": f"the tests of {part[1]}/{part[2]} (once)", "exercise": "your file", "demo": "the demo"}[part[3]]
+    if part := re.search(r"(ch\d+)_(ex\d+)_(tests|exercise|demo|piece)\.dir", object_file):
+        return {"tests": f"the tests of {part[1]}/{part[2]} (once)", "exercise": "your file", "demo": "the demo", "piece": "your file for the programs"}[part[3]]
     return object_file
 
 
