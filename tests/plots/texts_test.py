@@ -155,6 +155,14 @@ class TextsTest(unittest.TestCase):
         (self.chapter / "curve.svg").write_text("tolerance,steps,time [s]\n1e-3,6,0.5\n1e-6,12,0.66666666667\n")
         self.assert_told("curve.svg:2", "look at it")
 
+    def test_names_of_a_picture_that_are_digests(self):
+        committed = '<path id="p0123456789"/><path id="pabcdef0123"/><use href="#p0123456789" x="1.25"/>'
+        other = committed.replace("p0123456789", "p9876543210")
+        self.assertEqual(text_compare.difference(committed, other, picture=True), "")
+        swapped = committed.replace("#p0123456789", "#pabcdef0123")
+        self.assertIn("1: has ", text_compare.difference(committed, swapped, picture=True))
+        self.assertIn("1.25", text_compare.difference(committed, other.replace("1.25", "1.35"), picture=True))
+
     def test_a_missing_figure(self):
         self.replace("(curve.svg)", "(curved.svg)")
         faults = texts.check(self.root, self.bin)
