@@ -6,16 +6,15 @@ the commands. Writes one picture for each name into the folder --out.
 
 import drawing_python  # noqa: F401  first: it finds a Python that can draw
 
-import argparse
-import sys
 from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.patches import Rectangle
 
+from drawing_program import draw
 from sketch import DARK, PALE, arrow, bare, body, length, note, rotation
-from style import BLUE, GREEN, GREY, ORANGE, RED, SKY, PlotError, Table, save
+from style import BLUE, GREEN, GREY, ORANGE, RED, Table
 
 SLAB = "#D6EAF8"
 
@@ -418,26 +417,5 @@ def turned(runs: Path) -> plt.Figure:
 DRAWINGS = {drawing.__name__: drawing for drawing in (first_slab, staircase, where_to_stop, certificate, slab, difference, gjk, corners, turned)}
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("run", type=Path, metavar="RUN_DIR", help="the folder with the tables")
-    parser.add_argument("--out", type=Path, metavar="DIR", help="where the pictures go; default: RUN_DIR")
-    parser.add_argument("--only", choices=sorted(DRAWINGS), nargs="+", default=sorted(DRAWINGS), metavar="NAME", help="these pictures alone")
-    parser.add_argument("--kind", choices=("svg", "png", "pdf"), default="svg", help="default: svg")
-    options = parser.parse_args()
-    try:
-        if not options.run.is_dir():
-            raise PlotError(f"{options.run}: no such folder")
-        folder = options.out or options.run
-        folder.mkdir(parents=True, exist_ok=True)
-        for name in options.only:
-            figure = DRAWINGS[name](options.run)
-            save(figure, folder / f"{name}.{options.kind}")
-            plt.close(figure)
-    except PlotError as error:
-        print(f"ch01_drawings.py: {error}", file=sys.stderr)
-        sys.exit(2)
-
-
 if __name__ == "__main__":
-    main()
+    draw(__doc__, DRAWINGS)

@@ -6,14 +6,13 @@ Reads the tables that ch03_pictures writes into RUN_DIR. Writes one picture for 
 
 import drawing_python  # noqa: F401  first: it finds a Python that can draw
 
-import argparse
-import sys
 from pathlib import Path
 
 import numpy as np
 
+from drawing_program import draw
 from sketch import DARK, PALE, arrow, ball, bare, body, box, note
-from style import BLUE, GREEN, GREY, ORANGE, RED, SKY, PlotError, Table, plt, save
+from style import BLUE, GREEN, GREY, ORANGE, RED, SKY, Table, plt
 
 FLOOR = "#D8D8D8"
 
@@ -343,26 +342,5 @@ def methods(run: Path):
 DRAWINGS = {f.__name__: f for f in (one_by_one, contact, matrix, cones, residual, drive, no_solution, methods)}
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("run", type=Path, metavar="RUN_DIR", help="the folder that ch03_pictures wrote")
-    parser.add_argument("--out", type=Path, metavar="DIR", help="where the pictures go; default: RUN_DIR")
-    parser.add_argument("--only", choices=sorted(DRAWINGS), nargs="+", default=sorted(DRAWINGS), metavar="NAME", help="these pictures alone")
-    parser.add_argument("--kind", choices=("svg", "png", "pdf"), default="svg", help="default: svg")
-    options = parser.parse_args()
-    try:
-        if not options.run.is_dir():
-            raise PlotError(f"{options.run}: no such folder")
-        folder = options.out or options.run
-        folder.mkdir(parents=True, exist_ok=True)
-        for name in options.only:
-            figure = DRAWINGS[name](options.run)
-            save(figure, folder / f"{name}.{options.kind}")
-            plt.close(figure)
-    except PlotError as error:
-        print(f"ch03_drawings.py: {error}", file=sys.stderr)
-        sys.exit(2)
-
-
 if __name__ == "__main__":
-    main()
+    draw(__doc__, DRAWINGS)

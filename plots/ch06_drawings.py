@@ -5,16 +5,15 @@ Reads RUN_DIR/slide, stop, card_house, arch, pencil and billiards: runs of the c
 
 import drawing_python  # noqa: F401  first: it finds a Python that can draw
 
-import argparse
-import sys
 from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.patches import Arc, Circle, Polygon
 
+from drawing_program import draw
 from sketch import DARK, PALE, arrow, ball, bare, body, box, length, note
-from style import BLUE, GREEN, GREY, ORANGE, PURPLE, RED, PlotError, Table, save
+from style import BLUE, GREEN, GREY, ORANGE, PURPLE, RED, Table
 
 MU, G, SPEED = 0.5, 9.81, 3.0  # of slide.yaml
 
@@ -383,26 +382,5 @@ def towers(run: Path) -> plt.Figure:
 DRAWINGS = {f.__name__: f for f in (cone, stick_slip, isotropy, slip_root, rod, stages, stop, patch, towers, gallery)}
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("run", type=Path, metavar="RUN_DIR", help="the folder with the runs")
-    parser.add_argument("--out", type=Path, metavar="DIR", help="where the pictures go; default: RUN_DIR")
-    parser.add_argument("--only", choices=sorted(DRAWINGS), nargs="+", default=sorted(DRAWINGS), metavar="NAME", help="these pictures alone")
-    parser.add_argument("--kind", choices=("svg", "png", "pdf"), default="svg", help="default: svg")
-    options = parser.parse_args()
-    try:
-        if not options.run.is_dir():
-            raise PlotError(f"{options.run}: no such folder")
-        folder = options.out or options.run
-        folder.mkdir(parents=True, exist_ok=True)
-        for name in options.only:
-            figure = DRAWINGS[name](options.run)
-            save(figure, folder / f"{name}.{options.kind}")
-            plt.close(figure)
-    except PlotError as error:
-        print(f"ch06_drawings.py: {error}", file=sys.stderr)
-        sys.exit(2)
-
-
 if __name__ == "__main__":
-    main()
+    draw(__doc__, DRAWINGS)
