@@ -30,6 +30,7 @@ class State:
     done: bool = False
     detail: str = ""
     ran: bool = False  # the tests went to their end: on the same files they say the same again
+    recalled: bool = False  # this is the last result, and nothing that could change it has changed
 
 
 def first_error(log: str, file: str) -> tuple[str, bool]:
@@ -100,7 +101,7 @@ def check(exercise: Exercise, folder: Path, root: Path, limit: float) -> State:
     state = tested(exercise, folder, root, limit)
     if pieces.is_piece(exercise, root):
         if state.done:
-            state.detail = pieces.hand_over(exercise, folder, root)
+            state.detail = pieces.hand_over(exercise, folder, root, unchanged=state.recalled)
         elif state.text == NOT_STARTED:
             pieces.take_back(exercise, root)
         else:
@@ -111,7 +112,7 @@ def check(exercise: Exercise, folder: Path, root: Path, limit: float) -> State:
 def tested(exercise: Exercise, folder: Path, root: Path, limit: float) -> State:
     kept = last_result.recall(exercise, folder, root)
     if kept:
-        return State(**kept)
+        return State(**{**kept, "recalled": True})
     seen = last_result.sources(exercise, root)
     built, log = build(folder, exercise.target("exercise"))
     if not built:

@@ -37,12 +37,13 @@ def refuse(exercise: Exercise, root: Path, why: str) -> None:
     place(exercise, root, ".refused").write_text(f"{why}\n", encoding="utf-8")
 
 
-def hand_over(exercise: Exercise, folder: Path, root: Path) -> str:
-    """Compiles the learner's file for the programs. What is wrong, or nothing."""
+def hand_over(exercise: Exercise, folder: Path, root: Path, unchanged: bool) -> str:
+    """Compiles the learner's file for the programs. What is wrong, or nothing. `unchanged`: neither the file nor anything that
+    it is compiled with has changed since its last check."""
     source = (root / exercise.file).resolve()
     checked = f"{source}\n{source.read_text(encoding='utf-8')}"
     kept = place(exercise, root, ".source")
-    if place(exercise, root, ".so").exists() and kept.exists() and kept.read_text(encoding="utf-8") == checked:
+    if unchanged and place(exercise, root, ".so").exists() and kept.exists() and kept.read_text(encoding="utf-8") == checked:
         return ""
     built, log = build(folder, exercise.target("piece"))
     module = folder / "pieces" / f"{exercise.chapter}_{exercise.number}.so"

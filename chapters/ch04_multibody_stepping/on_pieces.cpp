@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "ch02_hull_hierarchy/hull_model.hpp"
 #include "ch03_impulse_lcp/clear/solver.hpp"
 #include "common/errors.hpp"
@@ -9,9 +11,10 @@
 namespace fc::world {
 
 void put_on_pieces(World& world, const Scene& scene, const clear::Pieces& pieces) {
-  for (const char* key : {"gyroscopic", "drag"})
-    if (const auto mark = scene.mark(key); mark && (world.effects.gyroscopic || world.effects.drag))
-      throw InputError(*mark,
+  for (const auto& [key, is_on] :
+       {std::pair{"gyroscopic", world.effects.gyroscopic}, std::pair{"drag", world.effects.drag.has_value()}})
+    if (is_on)
+      throw InputError(scene.mark(key).value_or(SourceMark{scene.file.string()}),
                        fmt::format("'{}' bends the motions, and the clear search knows constant spin and "
                                    "acceleration alone; remove it, or run without --clear and --mine",
                                    key));

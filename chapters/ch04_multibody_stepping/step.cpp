@@ -91,7 +91,10 @@ class Stepper final : public clear::Frame {
     return clear::Event{pair.contact ? contact : Kind::clear, pair.time, pair.a, pair.b, pair.stalled};
   }
 
-  void query(int a, int b, double now) override { query(schedule_.find(a, b), now); }
+  void query(int a, int b, double now) override {
+    const int number = schedule_.find(a, b);
+    if (number >= 0) query(number, now);  // else the two do not come near each other
+  }
 
   void report(int a, int b, double now) override { sight(a, b, now); }
 

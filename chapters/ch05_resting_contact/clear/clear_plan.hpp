@@ -30,7 +30,7 @@ class ClearPlan {
   std::vector<char> planned;  // of each member: it is pushed, or ends in contact; the others fly
 
  private:
-  // Of a row of the problem: where its point is, and its gap at the end, m.
+  // A row's contact point, and its gap at the plan's end (m).
   struct Point {
     PairContacts* pair;
     ContactPoint point;

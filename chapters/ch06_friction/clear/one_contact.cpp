@@ -14,7 +14,7 @@ using Mat2 = Eigen::Matrix2d;
 
 // An eigenvalue below this part of A's largest entry is 0, and so is a velocity below this part of what cancels in it.
 constexpr double kDead = 1e-14;
-// The axis of α is searched from 0 in so many pieces: the first change of sign is the slowest slip.
+// Pieces into which the axis of α is cut. They are searched from 0 on: the first change of sign is the slowest slip.
 constexpr int kPieces = 200;
 constexpr int kHalvings = 1200;  // more than a double has
 
