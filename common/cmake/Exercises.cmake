@@ -7,7 +7,7 @@
 #   solutions/ch01/ex01_door.cpp
 #   tests/exercises/ch01/ex01_door_test.cpp    compiled once, linked with each of the others
 #   tests/exercises/ch01/mutants/ex01_door.MISTAKE.cpp    first line: // Caught by: Suite.Test
-#                                   ....MISTAKE.change   the same as a change of the solution: see make_mutant.py
+#                                   ....MISTAKE.change   the same as a change of the solution: see make_mutants.py
 #
 # An exercise that is a piece of the engine (common/pieces.hpp) has, instead of the demo, which it may have too,
 #
@@ -69,29 +69,35 @@ function(fc_add_exercise chapter name)
     message(STATUS "${name} has been begun: the proof that its tests fail on the stub is left out")
   endif()
 
+  # All mutants are one program: FC_MUTANT says which of them the tests meet.
   file(GLOB mutants CONFIGURE_DEPENDS ${tests}/mutants/${name}.*.cpp ${tests}/mutants/${name}.*.change)
+  if(NOT mutants)
+    return()
+  endif()
+  set(solution ${CMAKE_SOURCE_DIR}/solutions/${chapter}/${name}.cpp)
+  set(contract ${CMAKE_SOURCE_DIR}/exercises/${chapter}/${name}.hpp)
+  set(changed ${mutants})
   foreach(mutant IN LISTS mutants)
+    file(STRINGS ${mutant} changes REGEX "^// Changes: ")
+    string(REPLACE "// Changes: " "${CMAKE_SOURCE_DIR}/" changes "${changes}")  # none: the solution is changed
+    list(APPEND changed ${changes})
+    file(STRINGS ${mutant} catcher LIMIT_COUNT 1)
+    string(REGEX REPLACE "^// Caught by: " "" catcher "${catcher}")
     get_filename_component(mistake ${mutant} NAME_WLE)
     string(REPLACE "${name}." "" mistake ${mistake})
-    file(STRINGS ${mutant} first LIMIT_COUNT 1)
-    if(mutant MATCHES "\\.change$")
-      file(STRINGS ${mutant} changes REGEX "^// Changes: ")
-      string(REPLACE "// Changes: " "${CMAKE_SOURCE_DIR}/" changes "${changes}")  # none: the solution is changed
-      set(change ${mutant})
-      set(mutant ${CMAKE_CURRENT_BINARY_DIR}/mutants/${chapter}/${name}.${mistake}.cpp)
-      set(solution ${CMAKE_SOURCE_DIR}/solutions/${chapter}/${name}.cpp)
-      add_custom_command(OUTPUT ${mutant} VERBATIM
-                         DEPENDS ${change} ${solution} ${changes} ${CMAKE_SOURCE_DIR}/common/cmake/make_mutant.py
-                         COMMAND python3 ${CMAKE_SOURCE_DIR}/common/cmake/make_mutant.py ${CMAKE_SOURCE_DIR} ${change} ${solution} ${mutant})
-    endif()
-    string(REGEX REPLACE "^// Caught by: " "" catcher "${first}")
-    add_executable(${id}_mutant_${mistake} ${mutant})
-    fc_exercise_settings(${id}_mutant_${mistake} ${chapter} ${id}_tests ${ARG_LINKS})
-    target_compile_options(${id}_mutant_${mistake} PRIVATE -Wno-unused-parameter)  # often the very mistake
-    add_test(NAME mutant_must_fail.${chapter}.${number}.${mistake}  # no such test: nothing fails, and this does
-             COMMAND ${id}_mutant_${mistake} --gtest_filter=${catcher})
-    set_tests_properties(mutant_must_fail.${chapter}.${number}.${mistake} PROPERTIES WILL_FAIL TRUE TIMEOUT 60)
+    set(test mutant_must_fail.${chapter}.${number}.${mistake})  # no such test: nothing fails, and this does
+    add_test(NAME ${test} COMMAND ${id}_mutants --gtest_filter=${catcher})
+    set_tests_properties(${test} PROPERTIES WILL_FAIL TRUE TIMEOUT 60 ENVIRONMENT FC_MUTANT=${mistake})
   endforeach()
+  set(source ${CMAKE_CURRENT_BINARY_DIR}/mutants/${chapter}/${name}.cpp)
+  set(tool ${CMAKE_SOURCE_DIR}/common/cmake/make_mutants.py)
+  list(REMOVE_DUPLICATES changed)
+  add_custom_command(OUTPUT ${source} VERBATIM
+                     DEPENDS ${contract} ${solution} ${changed} ${tool}
+                     COMMAND python3 ${tool} ${CMAKE_SOURCE_DIR} ${contract} ${solution} ${source} ${mutants})
+  add_executable(${id}_mutants ${source})
+  fc_exercise_settings(${id}_mutants ${chapter} ${id}_tests ${ARG_LINKS})
+  target_compile_options(${id}_mutants PRIVATE -Wno-unused-parameter)  # often the very mistake
 endfunction()
 
 # A module that the programs load: the function of `source`, handed over by `piece`. What it calls of the engine it finds in them.
@@ -120,7 +126,7 @@ function(fc_exercise_settings target chapter)
     target_precompile_headers(${target} REUSE_FROM fc_precompiled_tests)
   endif()
   # They are many. A learner's file alone would only wait for it; and who tests these functions may have none.
-  if(TARGET fc_precompiled AND target MATCHES "_(solution|stub|mutant_.*)$")
+  if(TARGET fc_precompiled AND target MATCHES "_(solution|stub|mutants)$")
     target_link_libraries(${target} PRIVATE Eigen3::Eigen fmt::fmt)
     target_precompile_headers(${target} REUSE_FROM fc_precompiled)
   endif()

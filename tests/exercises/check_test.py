@@ -30,28 +30,29 @@ fc_add_exercise(ch08 ex01_triple)
 add_executable(chapter chapter.cpp)
 add_executable(ch08_triples program.cpp)
 """
-HEADER = "#pragma once\ndouble twice(double x);  // 2 x\n"
-STUB = '#include "{name}.hpp"\n\n#include "common/todo.hpp"\n\ndouble twice(double x) {{ FC_TODO("7.1"); }}\n'
+HEADER = "#pragma once\nnamespace fc::exercises {\ndouble twice(double x);  // 2 x\n}\n"
+STUB = '#include "{name}.hpp"\n\n#include "common/todo.hpp"\n\nnamespace fc::exercises {{\ndouble twice(double x) {{ FC_TODO("7.1"); }}\n}}\n'
 TESTS = """
 #include <gtest/gtest.h>
 #include "{name}.hpp"
+using fc::exercises::twice;
 TEST(Double, OfOne) {{ EXPECT_EQ(twice(1), 2) << "metres: twice the way is longer"; }}
 TEST(Double, OfTwo) {{ EXPECT_EQ(twice(2), 4) << "metres"; }}
 TEST(Double, OfThree) {{ EXPECT_EQ(twice(3), 6) << "metres"; }}
 """
-SOLUTION = '#include "{name}.hpp"\n\ndouble twice(double x) {{ return 2 * x; }}\n'
-MUTANT = '// Caught by: Double.OfThree\n#include "{name}.hpp"\n\ndouble twice(double x) {{ return x * x; }}\n'
+SOLUTION = '#include "{name}.hpp"\n\nnamespace fc::exercises {{\ndouble twice(double x) {{ return 2 * x; }}\n}}\n'
+MUTANT = '// Caught by: Double.OfThree\n#include "{name}.hpp"\n\nnamespace fc::exercises {{\ndouble twice(double x) {{ return x * x; }}\n}}\n'
 NAMES = ("ex01_double", "ex02_half")
-PIECE_STUB = '#include "ex01_triple.hpp"\n#include "common/todo.hpp"\ndouble triple(double) { FC_TODO("8.1"); }\n'
+PIECE_STUB = '#include "ex01_triple.hpp"\n#include "common/todo.hpp"\nnamespace fc::mine {\ndouble triple(double) { FC_TODO("8.1"); }\n}\n'
 # A piece of the engine: no demo, a mutant that is a change of the solution, and a program that says how it was called.
 PIECE = {
-    "exercises/ch08/ex01_triple.hpp": "#pragma once\ndouble triple(double x);  // 3 x\n",
+    "exercises/ch08/ex01_triple.hpp": "#pragma once\nnamespace fc::mine {\ndouble triple(double x);  // 3 x\n}\n",
     "exercises/ch08/ex01_triple.cpp": PIECE_STUB,
     "exercises/ch08/ex01_triple.piece.cpp":
-        '// See: chapters/ch08_triples/scenes/three.yaml\n#include "common/pieces.hpp"\n#include "ex01_triple.hpp"\nFC_PIECE(triple);\n',
+        '// See: chapters/ch08_triples/scenes/three.yaml\n#include "common/pieces.hpp"\n#include "ex01_triple.hpp"\nFC_PIECE(fc::mine::triple);\n',
     "tests/exercises/ch08/ex01_triple_test.cpp":
-        '#include <gtest/gtest.h>\n#include "ex01_triple.hpp"\nTEST(Triple, OfTwo) { EXPECT_EQ(triple(2), 6); }\n',
-    "solutions/ch08/ex01_triple.cpp": '#include "ex01_triple.hpp"\n\ndouble triple(double x) { return 3 * x; }\n',
+        '#include <gtest/gtest.h>\n#include "ex01_triple.hpp"\nTEST(Triple, OfTwo) { EXPECT_EQ(fc::mine::triple(2), 6); }\n',
+    "solutions/ch08/ex01_triple.cpp": '#include "ex01_triple.hpp"\n\nnamespace fc::mine {\ndouble triple(double x) { return 3 * x; }\n}\n',
     "tests/exercises/ch08/mutants/ex01_triple.added.change":
         "// Caught by: Triple.OfTwo\n<<<<\ndouble triple(double x) { return 3 * x; }\n====\ndouble triple(double x) { return 3 + x; }\n>>>>\n",
     "program.cpp": '#include <cstdio>\nint main(int count, char** words) { for (int k = 1; k < count; ++k) std::puts(words[k]); }\n',
@@ -65,12 +66,12 @@ DEMO = """
 #include "{name}.hpp"
 int main(int, char** argv) {{
   try {{
-    std::ofstream(std::string(argv[1]) + ".txt") << twice(21);
+    std::ofstream(std::string(argv[1]) + ".txt") << fc::exercises::twice(21);
   }} catch (const fc::TodoError& todo) {{
     std::fprintf(stderr, "%s\\n", todo.what());
     return 2;
   }}
-  std::printf("twice 21 is %g\\ndraw it: by hand\\n", twice(21));
+  std::printf("twice 21 is %g\\ndraw it: by hand\\n", fc::exercises::twice(21));
 }}
 """
 PLOT = """
@@ -89,7 +90,7 @@ class CheckTest(unittest.TestCase):
                        "exercises/ch08", "solutions/ch08", "tests/exercises/ch08/mutants"):
             (root / folder).mkdir(parents=True)
         for file in ("common/todo.hpp", "common/pieces.hpp", "common/cmake/Exercises.cmake", "common/cmake/copy_stub.cmake",
-                     "common/cmake/make_mutant.py"):
+                     "common/cmake/make_mutants.py"):
             shutil.copy(ROOT / file, root / file)
         (root / "CMakeLists.txt").write_text(PROJECT)
         (root / "chapter.cpp").write_text("int main() {}\n")
@@ -163,10 +164,10 @@ class CheckTest(unittest.TestCase):
 
     def test_a_change_that_does_not_fit_is_told(self):
         change = self.root / "tests/exercises/ch08/mutants/ex01_triple.added.change"
-        made = [sys.executable, ROOT / "common/cmake/make_mutant.py", self.root, change,
-                self.root / "solutions/ch08/ex01_triple.cpp", self.root / "mutant.cpp"]
+        made = [sys.executable, ROOT / "common/cmake/make_mutants.py", self.root, self.root / "exercises/ch08/ex01_triple.hpp",
+                self.root / "solutions/ch08/ex01_triple.cpp", self.root / "mutants.cpp", change]
         self.assertEqual(subprocess.run(made, check=False).returncode, 0)
-        self.assertIn("return 3 + x;", (self.root / "mutant.cpp").read_text())
+        self.assertIn("return 3 + x;", (self.root / "mutants.cpp").read_text())
         former = change.read_text()
         self.addCleanup(lambda: change.write_text(former))
         change.write_text(former.replace("return 3 *", "return x *"))
