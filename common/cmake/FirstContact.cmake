@@ -113,7 +113,8 @@ endfunction()
 # fc_add_test(NAME SOURCES ... LINKS ...): a GoogleTest executable whose tests CTest lists one by one. Tests find the
 # source tree, the executables and the public test data through the environment variables set here.
 #   UNITY     as for libraries: the files are compiled as one, but for those after APART, whose names meet others' names
-#   TOGETHER  CTest runs the tests in one process: a study that all of them read is then made once, not once for each
+#   TOGETHER  CTest runs the tests in one process: a study that all of them read is then made once, not once for each. So do all
+#             tests with sanitizers, where a process takes a quarter of a second to start
 function(fc_add_test name)
   cmake_parse_arguments(ARG "UNITY;TOGETHER" "TIMEOUT" "SOURCES;APART;LINKS" ${ARGN})
   if(NOT ARG_TIMEOUT)
@@ -136,7 +137,7 @@ function(fc_add_test name)
     target_compile_definitions(${name} PRIVATE FC_SANITIZED)  # tests of many random scenes take fewer
   endif()
   set(properties TIMEOUT ${ARG_TIMEOUT} ENVIRONMENT "RC_PARAMS=seed=20080101")
-  if(ARG_TOGETHER)
+  if(ARG_TOGETHER OR FC_SANITIZE)
     add_test(NAME ${name} COMMAND ${name})
     set_tests_properties(${name} PROPERTIES ${properties})
   else()

@@ -117,7 +117,7 @@ class CheckTest(unittest.TestCase):
         (self.root / f"exercises/ch07/{name}.cpp").write_text(text)
 
     def solve(self, body: str) -> None:
-        self.write(f'#include "ex01_double.hpp"\n#include <cstdlib>\n\ndouble twice(double x) {{ {body} }}\n')
+        self.write(f'#include "ex01_double.hpp"\n#include <cstdlib>\n\nnamespace fc::exercises {{ double twice(double x) {{ {body} }} }}\n')
 
     def run_tool(self, tool: str, *arguments: str, build: bool = True, **environment: str) -> subprocess.CompletedProcess:
         """Runs check.py or see.py as a user does; all that goes to standard error is what is being built."""
@@ -272,7 +272,7 @@ class CheckTest(unittest.TestCase):
         header, test = self.root / "exercises/ch07/ex01_double.hpp", self.root / "tests/exercises/ch07/ex01_double_test.cpp"
         program, cache = self.build / "bin/ch07_ex01_exercise", self.build / "CMakeCache.txt"
         beside = self.root / "exercises/ch07/mine.inc"  # a file that only the compiler knows of
-        self.write('#include "ex01_double.hpp"\n#include "mine.inc"\ndouble twice(double x) { return factor * x; }\n')
+        self.write('#include "ex01_double.hpp"\n#include "mine.inc"\nnamespace fc::exercises { double twice(double x) { return factor * x; } }\n')
         beside.write_text("constexpr double factor = 2;\n")
         self.addCleanup(beside.unlink)
         for file, text in ((header, None), (test, None), (program, None), (cache, None), (self.root / "common/todo.hpp", None),
