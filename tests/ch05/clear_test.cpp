@@ -401,10 +401,10 @@ TEST(ClearProgram, RefusesInALine) {
   for (const auto& [scene, options, what] :
        {std::tuple("bowl", "--clear", "meshes"),
         std::tuple("stack", "--clear --set sleep.after=1 --set sleep.speed=0.1", "sleep"),
-        std::tuple("stack", "--clear --set solver.method=pgs", "another solver")}) {
+        std::tuple("stack", "--clear --set solver.method=pgs", "solvers other")}) {
     const auto outcome = run_program(scene, options, out);
     EXPECT_EQ(outcome.exit_code, 2) << what;
-    EXPECT_NE(outcome.err.find(std::string("the clear version does without ") + what), std::string::npos)
+    EXPECT_NE(outcome.err.find(std::string("the clear version does not handle ") + what), std::string::npos)
         << outcome.err;
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
   }
