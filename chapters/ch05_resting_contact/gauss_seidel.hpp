@@ -24,7 +24,8 @@ class GaussSeidel {
   virtual void clear();
   // Adds a body at the instant when the impulses act, with its v_0 and y_0.
   void add_body(const RigidBody& body, const Twist& velocity, const Twist& path);
-  // A row, of bodies by their numbers here; returns its own. m/s, and guesses in N s, which only count before run().
+  // Adds a row, with bodies by their numbers here; returns its number. m/s, and guesses in N s, which only count before
+  // run().
   int add(const lcp::Contact& contact, double approach_limit, double room, double impulse, double correction);
   // The rows from `first` on belong to two bodies, by their numbers in the world; guesses: N s, on B, of each. A later
   // chapter extends this: here rows push along their normals only.
