@@ -1,5 +1,5 @@
-// Exercise 6.5, to be seen: a cube on a slope, one that slides down, one that is put right again and again, and a rod that is thrown.
-// Writes creeping.csv.
+// Exercise 6.5, to be seen: a cube on a slope, one that slides down, one that is corrected again and again, and a rod
+// that is thrown. Writes creeping.csv.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
