@@ -28,8 +28,8 @@ class AugmentedLagrangian {
   // Starts from the blocks' r, and changes these alone. Bodies and blocks must outlive it.
   AugmentedLagrangian(std::span<const MovedBody> bodies, std::span<ContactBlock> blocks);
 
-  // What each contact obeys: Coulomb's law; or, for contacts with holds[i], normal impulses as without friction and
-  // tangents that do not move.
+  // What contacts obey: Coulomb's law; or, after hold(), normal impulses as without friction, and, for contacts with
+  // holds[i], tangents that do not move.
   void hold(std::span<const char> holds) { holds_ = holds; }
 
   // Runs at most this many rounds. left: the residual that the blocks' r leave, counted from 0 on; rounds go on until

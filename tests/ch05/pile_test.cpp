@@ -233,7 +233,7 @@ TEST(PileList, WaitsTwiceAsLongEachTime) {
   EXPECT_FALSE(piles.is_spent(island));
 }
 
-// Heaps: nothing overlaps in any frame, says the second opinion; energy only goes down, but for what the
+// Heaps: nothing overlaps in any frame, by the independent overlap check; energy only goes down, but for what the
 // correction of gaps adds and reports.
 TEST(Heap, NothingOverlaps) {
   const std::filesystem::path scenes = FC_SOURCE_DIR "/chapters/ch05_resting_contact/scenes";
