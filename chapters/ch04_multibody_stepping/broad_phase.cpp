@@ -14,7 +14,7 @@ void BoundsTree::build(std::span<const Bounds> boxes) {
   if (!boxes.empty()) build_node(order_, boxes, -1);
 }
 
-// Halves the bodies at the median of their boxes' middles, along the axis on which these are spread most.
+// Splits the bodies into two halves at the median of their box centres, along the axis with the largest spread.
 int BoundsTree::build_node(std::span<int> bodies, std::span<const Bounds> boxes, int parent) {
   const int index = static_cast<int>(nodes_.size());
   nodes_.push_back({boxes[static_cast<std::size_t>(bodies[0])], -1, static_cast<int>(bodies.size()), parent});
@@ -37,7 +37,7 @@ int BoundsTree::build_node(std::span<int> bodies, std::span<const Bounds> boxes,
   int axis = 0;
   (middles.high - middles.low).maxCoeff(&axis);
   const auto half = bodies.size() / 2;
-  // Equal middles are told apart by number, so that the tree is the same on every machine.
+  // Ties are broken by body number, so that the tree is the same on every machine.
   std::nth_element(bodies.begin(), bodies.begin() + static_cast<std::ptrdiff_t>(half), bodies.end(),
                    [&](int x, int y) {
                      const double a = middle_of(x)[axis], b = middle_of(y)[axis];
@@ -53,7 +53,8 @@ int BoundsTree::build_node(std::span<int> bodies, std::span<const Bounds> boxes,
 }
 
 void BoundsTree::refit(std::span<const Bounds> boxes) {
-  for (auto node = nodes_.rbegin(); node != nodes_.rend(); ++node) {  // children stand after their parents
+  for (auto node = nodes_.rbegin(); node != nodes_.rend();
+       ++node) {  // children are stored after their parents
     if (node->body >= 0) {
       node->box = boxes[static_cast<std::size_t>(node->body)];
     } else {

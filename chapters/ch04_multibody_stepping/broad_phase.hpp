@@ -1,4 +1,4 @@
-// The broad phase: which bodies come near each other at all, in time that grows with log n for each query.
+// The broad phase: which bodies can come near each other. One query takes O(log n).
 #pragma once
 
 #include <span>
@@ -24,10 +24,9 @@ struct Bounds {
   }
 };
 
-// A balanced binary tree of boxes. When a body changes its motion within a frame, its box is replaced and
-// those above it grow; at the next frame all boxes are taken anew, bottom up. The tree itself, who hangs
-// beside whom, is made afresh only now and then: as bodies move on it becomes a little worse, and stays
-// right.
+// A balanced binary tree of boxes. When a body gets a new motion within a frame, its box is replaced and the boxes
+// above it grow. At the next frame all boxes are recomputed, bottom up. The tree's structure is rebuilt only now and
+// then: as bodies move it becomes a little less efficient, but stays correct.
 class BoundsTree {
  public:
   // O(n log n). boxes: one for each body.

@@ -14,32 +14,32 @@
 namespace fc::world {
 namespace {
 
-constexpr double kRoundingTerms = 64;  // a certified gap below so many rounding terms cannot be spent
+constexpr double kRoundingTerms = 64;  // a certified gap below this many rounding terms cannot be spent
 
-// A gap of so little of the tolerance was halved seven times by impacts one upon the other. To follow a pair
-// that slides or turns in such a gap takes steps that shrink with it, a million below 1e-12 m; an impact that
-// still comes in there is one of a pile. Consequence: what comes to rest is frozen from a gap of 1e-8 m on,
-// with the default tolerance.
+// A gap of this share of the tolerance has been halved seven times, by one impact after another. Following a pair that
+// slides or turns in so small a gap takes steps that shrink with it: a million of them below 1e-12 m. An impact that
+// still closes in belongs to a pile-up of impacts. Consequence: with the default tolerance, bodies that come to rest
+// are frozen at gaps below 1e-8 m.
 constexpr double kStallShare = 0.01;
 
-// A pair without a gap to spend either parts, which is proved in some tens of steps, or slides or turns in
-// contact, which no number of steps would prove. So many pairs of nodes decide, of two convex bodies and of meshes; more
-// only cost. Consequence: a pair that needs more is frozen for the rest of the frame.
+// A pair with no gap left to spend either parts, which some tens of steps prove, or slides or turns in contact, which
+// no number of steps would prove. This many pairs of nodes decide (for convex bodies, and for meshes); more only cost
+// time. Consequence: a pair that needs more is frozen for the rest of the frame.
 constexpr std::int64_t kStallPairs = 256, kStallPairsOfMeshes = 10'000;
 
-constexpr double kSharpShare = 0.25;  // of the tolerance: a gap below it is measured more sharply
+constexpr double kSharpShare = 0.25;  // of the tolerance: a gap below it is measured more precisely
 
-// How far apart a pair is that is farther than the tolerance is only reported: this share of it will do.
+// The gap of a pair beyond the tolerance is only reported: this relative accuracy suffices.
 constexpr double kRoughShare = 0.25;
 
-// For two balls in closed form: how many epsilons of the coordinates their gap may be off, and which share of
-// the gap that is spent this may be.
+// For two balls in closed form: the error of their gap in epsilons of the coordinates, and the largest share of the
+// spent gap that this error may be.
 constexpr double kBallRounding = 16;
 constexpr double kSpendShare = 0.01;
 constexpr double kFarAway = std::numeric_limits<double>::infinity();  // m
 constexpr double kNever = std::numeric_limits<double>::infinity();    // s
 
-// Balls around the bodies that stay apart until the frame's end: no need to look closer.
+// The bounding balls of the bodies stay apart until the frame's end: no closer look is needed.
 bool out_of_reach(const World& world, const Pair& pair, const ca::Motion& a, const ca::Motion& b, double left,
                   double within) {
   if (!world.effects.swept) return false;
@@ -50,11 +50,10 @@ bool out_of_reach(const World& world, const Pair& pair, const ca::Motion& a, con
   return (b.position - a.position).norm() > reach + travel + within;
 }
 
-// Two balls that see each other on a straight line: free, both falling, or one of them at rest without
-// gravity.
+// Two balls whose relative motion is a straight line: both are free, both fall, or one is at rest without gravity.
 struct Balls {
-  Vec3 apart, velocity;  // of B's centre, seen from A's
-  double drag;           // 1/s, of the two that move
+  Vec3 apart, velocity;  // of B's centre, relative to A's
+  double drag;           // 1/s, of the balls that move
   Vec3 centre_a;
   double radius_a, radii;
   bool straight;
@@ -66,22 +65,21 @@ struct Balls {
     centre_a = a.position;
     radius_a = world.ball_radius[world.bodies[pair.a].shape];
     radii = radius_a + world.ball_radius[world.bodies[pair.b].shape];
-    // Drag does not bend a straight line, if it is the same for both (or the other one does not move): it
-    // lets time pass more and more slowly.
+    // Drag does not bend the line if it is the same for both balls, or if one of them does not move: it only slows the
+    // motion along it.
     const bool same_drag =
         a.drag == b.drag || (a.drag == 0 && a.velocity.isZero(0)) || (b.drag == 0 && b.velocity.isZero(0));
     straight = a.acceleration == b.acceleration && same_drag;
     drag = std::max(a.drag, b.drag);
-    // What the gap may be off by: round-off of coordinates, and of squares of distances.
+    // The error that the gap may have: round-off of coordinates, and of squares of distances.
     rounding = kBallRounding * std::numeric_limits<double>::epsilon() *
                (a.position.cwiseAbs().maxCoeff() + b.position.cwiseAbs().maxCoeff() + apart.norm() + radii);
   }
   double gap() const { return apart.norm() - radii; }
   double rounding;
 
-  // When the gap has come down to `target`, s from now; infinite if it never does. apart^2 = (radii +
-  // target)^2 is a quadratic equation; this form of its earlier root loses no digits where the later is far
-  // off.
+  // When the gap has come down to `target`, in s from now; infinite if it never does. apart^2 = (radii + target)^2 is a
+  // quadratic equation; this form of its earlier root loses no digits where the later root is far off.
   double time_to(double target) const {
     const double closing = -apart.dot(velocity);
     if (closing <= 0) return kNever;
@@ -99,13 +97,14 @@ bool are_balls(const World& world, const Pair& pair) {
          world.ball_radius[world.bodies[pair.b].shape] > 0;
 }
 
-// A gap along a plane of so many rounding terms below zero is none: the two touch.
+// The least gap along a plane (m) of bodies that do not overlap: a gap between it and zero is rounding, and the two
+// touch.
 double least_gap(const NearPair& pair) {
   return -kRoundingTerms * ca::rounding_term(pair.a.whole(), pair.b.whole(), pair.pose);
 }
 
-// Gives a contact another normal. Where a rounded shape meets the plane, it does so where its own surface has this normal:
-// a ball's contact stays on the line through its centre, or an impulse would turn it.
+// Gives a contact another normal. A rounded shape then touches where its own surface has this normal: the contact of a
+// ball stays on the line through its centre, or an impulse would turn the ball.
 void turn_contact(const NearPair& near, const Vec3& normal, ca::FeaturePair& f) {
   const Vec3 turned = normal - f.normal;
   f.point_a += near.a.radius * turned;
@@ -118,8 +117,8 @@ void turn_contact(const NearPair& near, const Vec3& normal, ca::FeaturePair& f) 
     f.point_a = f.point_b - f.gap * normal;
 }
 
-// Contacts of edges and corners may have any normal between those of the faces beside them. They get that of the face
-// along which the bodies close in slowest, if there is one that parts them: see passing_plane.hpp.
+// A contact of edges or corners may have any normal between those of the faces beside it. It gets the normal of the
+// face along which the bodies close in slowest, if there is one that separates them: see passing_plane.hpp.
 void turn_to_passing_planes(const NearPair& near, const Vec3& origin_a,
                             std::vector<ca::FeaturePair>& features) {
   if (!near.a.filled || !near.b.filled) return;  // a mesh is more than its hull
@@ -132,7 +131,7 @@ void turn_to_passing_planes(const NearPair& near, const Vec3& origin_a,
   }
 }
 
-// The contacts of one pair at time `now`, and its certified gap (m); none if it does not touch.
+// The contacts of one pair at time `now`, none if it does not touch; `certified` becomes its certified gap (m).
 std::vector<lcp::Contact> contacts_of(const World& world, const Pair& pair, double now, double& certified) {
   const double within = world.tolerance;
   if (are_balls(world, pair)) {
@@ -158,13 +157,13 @@ std::vector<lcp::Contact> contacts_of(const World& world, const Pair& pair, doub
   return contacts;
 }
 
-// The gap rule, of a certified gap that may be off by `rounding` (both m).
+// The gap rule for a certified gap that may be off by `rounding` (both m).
 clear::NextGap next_gap(const World& world, double gap, double rounding) {
   return world.gap_rule(gap, {world.keep(), kStallShare * world.tolerance, rounding});
 }
 
-// find_next_contact() for two balls, in closed form; false where it is not sure to be better than the search:
-// little gap is left to spend, or round-off of the coordinates is no longer small against it.
+// find_next_contact() for two balls, in closed form. False where the search may do better: little gap is left to spend,
+// or the round-off of the coordinates is no longer small compared with it.
 bool balls_meet(const World& world, Pair& pair, double now, double dt, StepReport& report) {
   const Balls balls(world, pair, now);
   const double gap = balls.gap();
@@ -181,8 +180,8 @@ bool balls_meet(const World& world, Pair& pair, double now, double dt, StepRepor
   return true;
 }
 
-// A certified gap of the pair (m) for the step's smallest: rough where the pair is far apart, and no better
-// than it need be.
+// A certified gap of the pair (m), for the step's smallest one: rough where the pair is far apart, and no more precise
+// than needed.
 double reported_gap(const World& world, const Pair& pair, const ca::PairPose& pose, double found,
                     const StepReport& report) {
   if (found >= report.min_gap) return found;
@@ -193,7 +192,7 @@ double reported_gap(const World& world, const Pair& pair, const ca::PairPose& po
   return std::max(found, lower);
 }
 
-// Whether two bodies that are near each other pass without meeting, from near.time on for `interval` seconds.
+// Whether two bodies that are near each other pass without meeting, for `interval` seconds from near.time on.
 bool passes(const World& world, const NearPair& near, double interval, const hulls::LeafPair& nearest) {
   const Witnesses at = near.cores(nearest.gjk.point_a, nearest.gjk.point_b, nearest.gjk.normal);
   const double least = least_gap(near), fastest = world.keep() / interval;
@@ -203,8 +202,9 @@ bool passes(const World& world, const NearPair& near, double interval, const hul
   return clear_along(near, *plane, next_gap(world, gap, -least).target, interval) >= interval;
 }
 
-// A known gap (m) is measured more sharply where little of it is left: a distance is known to a sixteenth of the tolerance
-// asked for. Then a pair that slides or turns on a face is proved to pass along that face (true), where the search would creep.
+// Measures a known gap (m) more precisely where little of it is left: a distance is known only to a sixteenth of the
+// tolerance asked for. Returns true if the pair, which slides or turns on a face, is now proved to pass along that
+// face: the search would creep.
 bool slides_past(const World& world, const NearPair& near, double interval, double& gap) {
   if (gap >= kSharpShare * world.tolerance) return false;
   const hulls::ModelDistance sharp =
@@ -213,7 +213,7 @@ bool slides_past(const World& world, const NearPair& near, double interval, doub
   return sharp.nearest.a >= 0 && passes(world, near, interval, sharp.nearest);
 }
 
-// Sets what a search from a gap (m) on may spend of it. Whether that is so little that impacts pile up.
+// Sets how much of a gap (m) the search may spend. Returns whether that is so little that impacts pile up.
 bool aim_from(const World& world, const NearPair& near, const Pair& pair, double gap,
               hulls::ReachOptions& options) {
   const double smallest = -least_gap(near);
@@ -228,8 +228,8 @@ bool aim_from(const World& world, const NearPair& near, const Pair& pair, double
 
 SceneFailure no_progress(const World& world, const Pair& pair) {
   return SceneFailure(
-      fmt::format("ccd.max_iterations = {} pairs of nodes did not get the search for the next contact of "
-                  "bodies {} and {} on; raise it",
+      fmt::format("ccd.max_iterations = {} pairs of nodes were not enough for any progress in the search for "
+                  "the next contact of bodies {} and {}; raise it",
                   world.max_pairs, pair.a, pair.b),
       "ccd.max_iterations");
 }
@@ -270,7 +270,7 @@ void find_next_contact(const World& world, Pair& pair, double now, double dt, st
     report.node_pairs += reach.node_pairs;
     report.advances += reach.advances;
   };
-  if (!gap) {  // a pair that is within the tolerance already reaches `start` at once
+  if (!gap) {  // a pair that is already within the tolerance reaches `start` at once
     options.target = next_gap(world, kFarAway, 0).target;
     options.slack = 0.25 * world.tolerance;
     options.start = world.keep();
@@ -305,15 +305,15 @@ Island touching_island(const World& world, int a, int b, double now, StepReport&
   Island island;
   std::vector<int> open;
   std::vector<int> seen;                          // pairs
-  std::vector<std::pair<int, int>> seen_at_rest;  // bodies of pairs that nobody keeps
+  std::vector<std::pair<int, int>> seen_at_rest;  // bodies of pairs that are not in the schedule
   const auto add_body = [&](int body) {
     if (world.bodies[body].state.is_static()) return;
     if (std::find(island.bodies.begin(), island.bodies.end(), body) != island.bodies.end()) return;
     island.bodies.push_back(body);
     open.push_back(body);
   };
-  // A group that is frozen is one body to all others, also where two of it are a hair more than the tolerance apart.
-  std::vector<int> groups;  // that are in it
+  // A frozen group is one body to all others, even where two of its bodies are slightly more than the tolerance apart.
+  std::vector<int> groups;  // added already
   const auto add_group = [&](int body) {
     const int group = world.bodies[body].group;
     if (group < 0 || std::find(groups.begin(), groups.end(), group) != groups.end()) return;
@@ -331,7 +331,7 @@ Island touching_island(const World& world, int a, int b, double now, StepReport&
     add_body(other.a);
     add_body(other.b);
   };
-  // Two bodies that stay where they are have no pair in the schedule; if something hits one, they matter.
+  // Two stationary bodies have no pair in the schedule. If something hits one of them, their contact matters.
   const auto add_contacts_at_rest = [&](int body) {
     if (!world.is_stationary(body)) return;
     std::vector<int> others;

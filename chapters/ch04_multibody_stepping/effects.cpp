@@ -18,7 +18,7 @@ std::string declared(const Scene& scene, const std::string& key) {
   return mark ? "declared at " + mark->text() : "";
 }
 
-// Where the first body with this property stands, and how many have it.
+// Where the scene declares the first body with this property, and how many bodies have it.
 template <class Has>
 std::string declared_by_bodies(const Scene& scene, Has has) {
   const auto first = std::find_if(scene.bodies.begin(), scene.bodies.end(), has);
@@ -66,14 +66,14 @@ std::vector<Effect> explain(const Scene& scene) {
                     on.gyroscopic
                         ? "six columns for each such body in a row"
                         : "six columns for each such body in a row; the spin is constant between impacts "
-                          "(without a gyroscopic effect not the angular momentum)",
+                          "(without the gyroscopic effect the angular momentum is not)",
                     0});
   else
     list.push_back({"no rotation", "derived: all bodies that move are balls, without friction",
                     "rows have no angular part; spins never change", 0});
   if (!on.gravity)
-    list.push_back({"rest", "derived: nothing accelerates a body",
-                    "bodies at rest are not queried among each other", 0});
+    list.push_back(
+        {"rest", "derived: nothing accelerates a body", "pairs of bodies at rest are not queried", 0});
   if (on.gravity)
     list.push_back(
         {"gravity", declared(scene, "gravity"), "free fall in closed form inside every motion", 0});
@@ -96,15 +96,15 @@ std::vector<Effect> explain(const Scene& scene) {
                     "bodies of infinite mass that move; their work is reported", 0});
   if (on.paths)
     list.push_back({"path", declared_by_bodies(scene, [](const BodySpec& b) { return !b.path.empty(); }),
-                    "frames are cut where a kinematic body takes a new course", 0});
+                    "frames are divided where a kinematic body begins a new motion", 0});
   if (on.guided)
     list.push_back({"fixed degrees of freedom", declared_by_bodies(scene, is_guided),
-                    "zeros in the inverse masses; gravity does nothing along them", 0});
+                    "zeros in the inverse masses; gravity does not act along them", 0});
   if (on.sensors)
     list.push_back({"sensor", declared_by_bodies(scene, [](const BodySpec& b) { return b.is_sensor; }),
                     "sensors.csv; no rows in any LCP", 0});
   if (on.sleep)
-    list.push_back({"sleep", declared(scene, "sleep"), "bodies held for long enough are not queried", 0});
+    list.push_back({"sleep", declared(scene, "sleep"), "bodies frozen for long enough are not queried", 0});
   return list;
 }
 

@@ -22,7 +22,7 @@ int main(int argc, char** argv) {
   chapter.name = "ch04_multibody_stepping";
   chapter.purpose =
       "Moves rigid bodies from contact to contact inside frames of fixed length: no collision is missed, "
-      "all contacts of an instant are solved together. Bodies that come to rest are held (lost_time); "
+      "all contacts of an instant are solved together. Bodies that come to rest are frozen until the frame's end (lost_time); "
       "resting contact comes with chapter 5, friction with chapter 6.";
   chapter.example =
       "build/bin/ch04_multibody_stepping chapters/ch04_multibody_stepping/scenes/two_bunnies.yaml --poses";

@@ -6,10 +6,10 @@
 
 namespace fc::world {
 
-// From now on the next contact of a pair is searched for in trees of hulls, an instant's impulses are found by the dense
-// Dantzig, and the gap rule and the loop are those of `pieces`, which must outlive the world. (What a contact looks like, and
-// which boxes overlap, is found as ever; two balls still meet by a quadratic equation.) Throws InputError for what the clear
-// search does not know: shapes that are not hulls of points, motions whose spin or acceleration changes.
+// From now on the world uses `pieces`, which must outlive it: the search in trees of hulls for a pair's next contact,
+// the dense Dantzig solver for an instant's impulses, the gap rule and the loop. (Contact features and overlapping
+// boxes are found as before; two balls still meet by a quadratic equation.) Throws InputError for what the clear search
+// does not allow: shapes that are not hulls of points, and motions whose spin or acceleration changes.
 void put_on_pieces(World& world, const Scene& scene, const clear::Pieces& pieces);
 
 }  // namespace fc::world

@@ -9,14 +9,14 @@
 namespace fc::world {
 namespace {
 
-// A face passes through a point if its plane is no farther from it than this share of the body's reach. Consequence: with
-// less, faces are missed where coordinates are rounded; with more, faces beside the contact are tried in vain.
+// A face passes through a point if its plane is no farther from it than this share of the body's reach. Consequence:
+// with less, rounding of coordinates makes the search miss faces; with more, it tries faces beside the contact in vain.
 constexpr double kOnFace = 1e-5;
 
 // Steps along one plane: a pair that slides or parts needs one or two, and one that closes in does not pass.
 constexpr int kPlaneSteps = 8;
 
-// A step in double precision: its own rounding.
+// What rounding in double precision takes off a step, as a share of it.
 constexpr double kShorter = 1e-12;
 
 // Calls `look` with each triangle at a vertex.
@@ -29,7 +29,7 @@ void for_triangles_at(const hulls::FeatureMesh& mesh, int vertex, Look&& look) {
   }
 }
 
-// Adds normals turned into the world, each once.
+// Collects normals, turned into world axes, each once.
 struct Normals {
   const Mat3& rotation;
   double sign;
@@ -41,7 +41,7 @@ struct Normals {
   }
 };
 
-// The faces at a feature of a convex part, or of a mesh. A cylinder's caps stand for all that it has.
+// The faces at a feature of a convex part, or of a mesh. Of a cylinder the two caps are always taken.
 void add_faces(const hulls::Model& model, ca::FeatureKind kind, int id, Normals normals) {
   const hulls::FeatureMesh& mesh = model.mesh;
   if (model.curved()) {
@@ -73,7 +73,7 @@ void add_faces(const hulls::Model& model, int leaf, const Vec3& point, Normals n
     for (const int vertex : mesh.triangles[triangle]) for_triangles_at(mesh, vertex, look);
 }
 
-// The same for a feature of any model: of a compound it is its part's, and numbered from there.
+// The same for a feature of any model. In a compound the feature is one of its parts', and numbered there.
 void add_faces_of(const hulls::Model& model, ca::FeatureKind kind, int id, Normals normals) {
   if (model.parts.empty()) return add_faces(model, kind, id, normals);
   const auto after = std::upper_bound(model.first_name.begin(), model.first_name.end(), id);
@@ -81,7 +81,7 @@ void add_faces_of(const hulls::Model& model, ca::FeatureKind kind, int id, Norma
   add_faces(model.parts[part], kind, id - model.first_name[part], normals);
 }
 
-// Calls `look` with convex bodies that hold the model: its parts, itself where it is convex, or a mesh's hull.
+// Calls `look` with convex bodies that together contain the model: its parts, itself if it is convex, or a mesh's hull.
 template <class Look>
 void for_hulls(const hulls::Model& model, Look&& look) {
   for (const hulls::Model& part : model.parts) look(part.leaf(0));

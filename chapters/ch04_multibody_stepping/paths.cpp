@@ -9,7 +9,7 @@ namespace fc::world {
 namespace {
 
 constexpr double kSoon =
-    1e-12;  // of a frame: a row so near to an end of it is there; times are sums of frames
+    1e-12;  // of a frame: a row this near to one of its ends counts as at the end; times are sums of frames
 
 }  // namespace
 
@@ -27,7 +27,7 @@ RigidBody Path::at(double time, double soon) const {
   if (later == rows_.begin() || later == rows_.end()) return body;
   const double between = later->time - from.time, since = std::max(0.0, time - from.time);
   Quat turn = later->orientation * from.orientation.conjugate();
-  if (turn.w() < 0) turn.coeffs() *= -1;  // the shorter way
+  if (turn.w() < 0) turn.coeffs() *= -1;  // the shorter rotation
   const Eigen::AngleAxisd angle(turn);
   body.velocity = (later->position - from.position) / between;
   body.spin = angle.angle() / between * angle.axis();

@@ -136,7 +136,7 @@ void Recorder::write_sightings(double frame_start) {
 }
 
 std::string Recorder::close() {
-  write_impacts(static_cast<double>(reports_.size()) * dt_);  // of a step that failed
+  write_impacts(static_cast<double>(reports_.size()) * dt_);  // what a failed step has left
   write_sightings(static_cast<double>(reports_.size()) * dt_);
   if (sensors_) sensors_->close();
   steps_.close();

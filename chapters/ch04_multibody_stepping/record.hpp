@@ -25,8 +25,7 @@ Totals totals_of(const World& world);
 // Columns that a later chapter adds to steps.csv and contacts.csv, after chapter 4's.
 struct MoreColumns {
   std::vector<Column> columns = {};
-  std::function<std::vector<Cell>()> cells =
-      {};  // of the frame that was stepped last; of row 0 before the first
+  std::function<std::vector<Cell>()> cells = {};  // of the last frame; of row 0 before the first frame
   std::vector<Column> contact_columns = {};
   std::function<std::vector<Cell>(const ImpactRecord&)> contact_cells = {};
 };
@@ -38,13 +37,13 @@ class Recorder {
            const MoreColumns& more = {});
 
   void start(const World& world);  // row 0
-  // To be called inside a step, with times within the frame: they only take notes.
+  // Called inside a step, with times within the frame: these only store what they are given.
   void impact(const ImpactRecord& record) { impacts_.push_back(record); }
   void sighting(const Sighting& sighting) { sightings_.push_back(sighting); }
   void instant(const World& world, double time);
   // After a step that ended at t (s).
   void frame(const World& world, int number, double t, const StepReport& report);
-  // Closes the tables and writes the motion; the result is a remark on it for the summary.
+  // Closes the tables and writes the motion; returns a remark on the motion for the summary.
   std::string close();
 
   const std::vector<StepReport>& reports() const { return reports_; }
@@ -72,13 +71,13 @@ class Recorder {
   double dt_;
   std::vector<ImpactRecord> impacts_;  // of the frame that is being stepped
   std::vector<Sighting> sightings_;    // of the same
-  std::size_t impacts_seen_ = 0;       // how many of them belong to instants that are over
+  std::size_t impacts_seen_ = 0;       // how many of them belong to instants already solved
   std::vector<Kink> kinks_;
   std::vector<StepReport> reports_;
   std::optional<double> first_impact_;
 };
 
-// What the reports say together: for the summary.
+// Adds to the summary what the reports of all frames give together.
 void summarize(const Scene& scene, const World& world, const std::vector<StepReport>& reports,
                Summary& summary);
 

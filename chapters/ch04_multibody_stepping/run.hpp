@@ -9,16 +9,16 @@
 
 namespace fc::world {
 
-// One frame: each chapter brings its own.
+// One frame; each chapter has its own step.
 using StepFunction = std::function<StepReport(World&, double dt, const Listeners&)>;
 
-// What a chapter makes of a world before its first frame. May throw InputError.
+// What a chapter does to a world before its first frame. May throw InputError.
 using Prepare = std::function<void(World&)>;
 
-// Builds the world, prepares it (if there is anything to prepare), steps through all frames, writes
-// contract 1.5's files into the run's folder, and fills the summary. `kinds`: the step's contacts may last, so
-// contacts.csv says of which kind each is. `more`: what it adds to steps.csv. The exit code; throws as build_world() and the step do (what was
-// written so far stays).
+// Builds the world, prepares it (if there is anything to prepare), steps through all frames, writes contract 1.5's
+// files into the run's folder, and fills the summary. `kinds`: contacts may last, so contacts.csv gets the column
+// `kind`. `more`: the columns that the chapter adds. Returns the exit code; throws as build_world() and the step do
+// (what was written so far stays).
 int run_scene(const Scene& scene, const RunContext& context, Summary& summary, const StepFunction& step_frame,
               bool kinds = false, const Prepare& prepare = {}, const MoreColumns& more = {});
 

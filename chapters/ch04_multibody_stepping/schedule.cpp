@@ -6,7 +6,7 @@
 
 namespace fc::world {
 
-// For so many frames the tree that was right for the first serves well enough.
+// The structure of the tree is kept for this many frames: bodies do not move far meanwhile.
 constexpr int kFramesOfATree = 16;
 
 void Schedule::begin(std::span<const Bounds> boxes) {
@@ -60,7 +60,7 @@ int Schedule::find(int a, int b) const {
 
 void Schedule::close(int number) {
   pair(number).open = false;
-  ++pair(number).answers;  // what it still has in the queue is void
+  ++pair(number).answers;  // its events still in the queue are void
   closed_.push_back(number);
 }
 

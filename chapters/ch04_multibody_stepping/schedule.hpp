@@ -14,10 +14,10 @@ namespace fc::world {
 struct Pair {
   int a = 0, b = 0;      // a < b
   double time = 0;       // s in the frame: nothing happens before
-  bool contact = false;  // at `time` the pair reaches its gap (else it is clear until then)
+  bool contact = false;  // at `time` the pair reaches its target gap (else it is clear until then)
   bool stalled = false;  // it has no gap left to spend, and closes in within the frame
   bool open = false;     // in use; closed when one of its bodies changes its motion
-  int answers = 0;       // how often it was queried: an event of an older answer is void
+  int answers = 0;       // how often it was queried: an event of an earlier answer is void
 };
 
 // Pairs by number, and the numbers of each body's pairs. Nothing here knows what a body is.
@@ -45,10 +45,10 @@ class Schedule {
   const std::vector<int>& pairs_of(int body) const { return pairs_of_[static_cast<std::size_t>(body)]; }
   int size() const { return static_cast<int>(pairs_.size()); }  // numbers that are or were in use
 
-  // The pair has a new answer, which counts as an event if its time is before `end`.
+  // The pair has a new answer. It counts as an event if its time is before `end`.
   void answered(int number, double end);
-  // The number of the pair whose event comes first, which is taken off the queue; -1 if there is none. Events
-  // at the same time come in the order of their bodies' numbers.
+  // Takes the earliest event off the queue. Returns its pair's number; -1 if there is no event. Events at the same time
+  // come in the order of their bodies' numbers.
   int next();
   double next_time();  // of that event, s in the frame; infinite if there is none
 
@@ -64,7 +64,7 @@ class Schedule {
   void close(int number);
 
   BoundsTree tree_;
-  int frames_ = 0;  // since the tree was made
+  int frames_ = 0;  // since the tree was built
   std::vector<Pair> pairs_;
   std::vector<int> closed_;  // numbers to be used again
   std::vector<std::vector<int>> pairs_of_;

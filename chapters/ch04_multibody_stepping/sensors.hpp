@@ -7,14 +7,14 @@
 
 namespace fc::world {
 
-// Whether one of the two is a sensor: nothing is resolved between them.
+// Whether one of the two is a sensor: then nothing is resolved between them.
 inline bool is_sensor_pair(const World& world, int a, int b) {
   return world.bodies[a].sensor || world.bodies[b].sensor;
 }
 
-// Looks at a pair with a sensor at `now` (s in the frame): whether they touch (gap within the tolerance),
-// overlap, or one is inside the other. The result is what to report: a sighting if they touch and did not
-// when they were last looked at. `touching` says whether they touch.
+// Queries a pair with a sensor at `now` (s in the frame). `touching` becomes whether they touch (gap within the
+// tolerance), overlap, or one is inside the other. Returns what to report: a sighting if they touch and did not when
+// they were last queried.
 std::optional<Sighting> look(World& world, int a, int b, double now, bool& touching);
 
 }  // namespace fc::world

@@ -1,4 +1,4 @@
-// Sleep: a body that was frozen in place for long enough is at rest, and costs nothing, until something hits
+// Sleep: a body that has been frozen in place for long enough is put to rest, and costs nothing until something hits
 // it.
 #pragma once
 
@@ -8,13 +8,13 @@
 
 namespace fc::world {
 
-// At a frame's end, before the bodies are advanced there: counts for how long each has been frozen, and lets
-// those fall asleep that the scene's `sleep` lets (World::effects). A sleeping body has no velocity and no
-// spin; what energy it gave up for that is reported.
+// At a frame's end, before the bodies are advanced to it: counts for how long each has been frozen, and puts those to
+// sleep that meet the scene's `sleep` (World::effects). A sleeping body has no velocity and no spin; the kinetic energy
+// that it gives up is reported.
 void fall_asleep(World& world, double dt, StepReport& report);
 
-// Wakes the given bodies (those that sleep) at `now` (s in the frame), and every sleeper that one of them
-// touches, and so on: what lies on them may have lost its support. Appends all that woke to `bodies`.
+// Wakes those of the given bodies that sleep, at `now` (s in the frame), and every sleeper that one of them touches,
+// and so on: a body that lies on them may have lost its support. Appends all that woke to `bodies`.
 void wake(World& world, double now, std::vector<int>& bodies, StepReport& report);
 
 }  // namespace fc::world

@@ -18,7 +18,7 @@
 namespace fc::world {
 namespace {
 
-// What an impact must not change, and by how much round-off could have: of the bodies of one island.
+// What an impact must not change, summed over the bodies of an island, and the sizes to which round-off is compared.
 struct Totals {
   Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
   double linear_size = 0, angular_size = 0, kinetic = 0;
@@ -36,8 +36,8 @@ struct Totals {
   }
 };
 
-// The bodies of an island with their states at one time, and its contacts between them by their places in
-// that list: those that can move first, then the static ones that they touch.
+// The bodies of an island with their states at one time, and its contacts, which name bodies by their places in that
+// list: first the bodies that can move, then the static ones that they touch.
 struct Local {
   std::vector<int> numbers;
   std::vector<RigidBody> states;
@@ -58,7 +58,7 @@ struct Local {
   }
 };
 
-// One step from contact to contact: the world, the frame and the report at hand. Its loop sees it as a Frame.
+// The state of one step from contact to contact: the world, the frame and the report. The loop sees it as a Frame.
 class Stepper final : public clear::Frame {
  public:
   Stepper(World& world, double dt, StepReport& report, const Listeners& listeners)
@@ -78,7 +78,7 @@ class Stepper final : public clear::Frame {
     schedule_.overlapping_pairs([&](int a, int b) {
       if (world_.may_meet(a, b)) pairs.emplace_back(std::min(a, b), std::max(a, b));
     });
-    std::sort(pairs.begin(), pairs.end());  // the tree's order is not the bodies'
+    std::sort(pairs.begin(), pairs.end());  // the tree does not return them in the bodies' order
     for (const auto& [a, b] : pairs) open(a, b, 0);
   }
 
@@ -111,12 +111,12 @@ class Stepper final : public clear::Frame {
     return changed_;
   }
 
-  // An island that touches nothing fixed goes on with its centre of mass; any other stays, with the kinematic bodies that move
-  // into it: whoever would go on would go through.
+  // An island that touches nothing fixed goes on with its centre of mass. Any other stays where it is, and so do the
+  // kinematic bodies that move into it: they would go through it.
   std::span<const int> freeze(double now) override {
     changed_ = island_.bodies;
     const bool free = is_free(island_);
-    bool lies = !free;  // on nothing that moves
+    bool lies = !free;  // it rests on nothing that moves
     if (!free)
       for (const lcp::Contact& contact : island_.contacts) stop_pushers(contact, now, changed_, lies);
     std::erase_if(changed_,
@@ -139,7 +139,7 @@ class Stepper final : public clear::Frame {
     return changed_;
   }
 
-  // Looks at a pair with a sensor, and reports what is new: contacts are reported, not resolved. Whether they
+  // Queries a pair with a sensor, and reports a new sighting: contacts are reported, not resolved. Returns whether they
   // touch.
   bool sight(int a, int b, double now) {
     bool touching = false;
@@ -158,7 +158,8 @@ class Stepper final : public clear::Frame {
     }
     done_.resize(world_.bodies.size(), 0);
     for (std::size_t i = 0; i < bodies.size(); ++i) {
-      done_[static_cast<std::size_t>(bodies[i])] = 1;  // their pairs with this one are open, or it is itself
+      done_[static_cast<std::size_t>(bodies[i])] =
+          1;  // their pairs with this body are open already; or it is this body
       open_pairs(bodies[i], boxes[i], now,
                  [&](int other) { return done_[static_cast<std::size_t>(other)] != 0; });
     }
@@ -168,7 +169,7 @@ class Stepper final : public clear::Frame {
  private:
   void query(int number, double now) {
     Pair& pair = schedule_.pair(number);
-    std::optional<double> gap;  // known of those that touched at this instant
+    std::optional<double> gap;  // known for the pairs that touched at this instant
     if (now == solved_at_)
       for (const PairGap& known : solved_)
         if (known.a == pair.a && known.b == pair.b) gap = known.gap;
@@ -178,11 +179,11 @@ class Stepper final : public clear::Frame {
 
   void solve_island(double now);
 
-  // Frozen where it is, not as one of a group that goes on.
+  // Frozen in place, not as part of a group that goes on.
   static bool is_still(const Body& body) { return body.frozen && body.group < 0; }
   void lose(double time) { report_.lost_time = std::max(report_.lost_time, time); }
 
-  // Whether all that the island touches is in it, and free to move.
+  // Whether everything that the island touches is part of it and free to move.
   bool is_free(const Island& island) const {
     for (const lcp::Contact& contact : island.contacts)
       for (const int number : {contact.body_a, contact.body_b}) {
@@ -194,7 +195,7 @@ class Stepper final : public clear::Frame {
     return true;
   }
 
-  // Adds the kinematic bodies that move into a contact; `lies` becomes false if one moves there at all.
+  // Adds the kinematic bodies that move into a contact; `lies` becomes false if one moves at the contact at all.
   void stop_pushers(const lcp::Contact& contact, double now, std::vector<int>& stopped, bool& lies) const {
     for (const int body : {contact.body_a, contact.body_b}) {
       if (!world_.is_moving_kinematic(body)) continue;
@@ -207,12 +208,13 @@ class Stepper final : public clear::Frame {
 
   void open(int a, int b, double now) {
     ++report_.pairs;
-    if (is_sensor_pair(world_, a, b) && sight(a, b, now)) return;  // until one of them begins a new motion
+    if (is_sensor_pair(world_, a, b) && sight(a, b, now))
+      return;  // no event until one of them begins a new motion
     query(schedule_.open(a, b), now);
   }
 
-  // Opens and queries the pairs of a body with all whose boxes its own overlaps, but for those that `skip`
-  // knows.
+  // Opens and queries the pairs of a body with all bodies whose boxes overlap its own, except those for which `skip` is
+  // true.
   template <class Skip>
   void open_pairs(int body, const Bounds& box, double now, Skip&& skip) {
     others_.clear();
@@ -254,7 +256,7 @@ void Stepper::solve_island(double now) {
   report_.energy_gain = std::max(report_.energy_gain, after.kinetic - before.kinetic - impact.kinematic_work);
   report_.energy_error =
       std::max(report_.energy_error, std::abs(after.kinetic - before.kinetic - impact.energy_identity));
-  // No static body takes part, and nothing holds one from outside.
+  // No static body takes part, and no body has fixed degrees of freedom.
   const bool free = local.numbers.size() == island.bodies.size() &&
                     std::none_of(local.states.begin(), local.states.end(),
                                  [](const RigidBody& body) { return body.is_guided(); });
@@ -289,7 +291,7 @@ void Stepper::solve_island(double now) {
       listeners_.impact({now, island.contacts[impulse.contact], impulse});
 }
 
-// The loop where a planner decides what becomes of bodies in contact: its plans end, too, and nothing is frozen.
+// The loop with a planner, which decides what becomes of bodies in contact: its plans end, too, and nothing is frozen.
 void run_planned(Stepper& stepper, Planner& planner, World& world, double dt, StepReport& report,
                  const Listeners& listeners) {
   using Kind = clear::Event::Kind;
@@ -309,7 +311,7 @@ void run_planned(Stepper& stepper, Planner& planner, World& world, double dt, St
 
 StepReport step(World& world, double dt, const Listeners& listeners, Planner* planner);
 
-// A frame that is cut where bodies with a path begin new motions.
+// A frame that is divided where bodies with a path begin new motions.
 StepReport step_in_parts(World& world, double dt, const Listeners& listeners, Planner* planner) {
   StepReport all;
   all.min_gap = std::numeric_limits<double>::infinity();
@@ -351,7 +353,7 @@ StepReport step(World& world, double dt, const Listeners& listeners, Planner* pl
     Body& b = world.bodies[body];
     if (b.frozen) report.lost_time = std::max(report.lost_time, dt - b.time);
     world.advance_to(body, dt, 0);
-    b.was_frozen = b.frozen && b.group < 0;  // a group lives through the frame
+    b.was_frozen = b.frozen && b.group < 0;  // a group went on during the frame
     b.frozen = false;
     b.group = -1;
     b.group_velocity = Vec3::Zero();

@@ -32,10 +32,9 @@ ThetaSeries::ThetaSeries(long double m, long double K, long double b, long doubl
   }
 }
 
-// Theta(u + i b), up to factors that do not turn, is exp(-i slip u) times the sum of
-// turn_cosine[n] cos((2n+1) x) + i turn_sine[n] sin((2n+1) x). With h = exp(-pi b/K), g = exp(-pi (K' - b)/K)
-// and q = g h, the coefficients are (-1)^n q^(n^2) h^n (1 -+ g^(2n+1)), where 1 - g is taken in all its
-// digits.
+// Theta(u + i b), up to factors of constant phase, is exp(-i slip u) times the sum of turn_cosine[n] cos((2n+1) x) + i
+// turn_sine[n] sin((2n+1) x). With h = exp(-pi b/K), g = exp(-pi (K' - b)/K) and q = g h, the coefficients are (-1)^n
+// q^(n^2) h^n (1 -+ g^(2n+1)), where 1 - g is computed to all its digits.
 void ThetaSeries::set_turn(double q, double h, double log_g) {
   const double g = std::exp(-log_g), one_less_g = -std::expm1(-log_g);
   double common = 1, step = -q * h, power = g, sum = 1;  // power: g^(2n+1), sum: 1 + g + ... + g^(2n)

@@ -5,13 +5,12 @@
 
 namespace fc::world {
 
-// sn, cn and dn of u with parameter m, and the phase of Theta(u + i b | m) for a fixed b: what the motion of
-// a free body consists of. K is the quarter period, K' that of 1 - m, and 0 < b < K'.
+// sn, cn and dn of u with parameter m, and the phase of Theta(u + i b | m) for a fixed b: the functions in the motion
+// of a free body. K is the quarter period, K' that of 1 - m, and 0 < b < K'.
 //
-// The series go with the powers q, q^4, q^9 of the nome q = exp(-pi K'/K). For m > 1/2 those of the nome
-// exp(-pi K/K') are used, at an imaginary argument (Jacobi's transformation): hyperbolic sines instead of
-// sines. So the nome is at most exp(-pi) = 0.043, its 16th power is below eps, and four terms are enough for
-// every m and u.
+// The series are in the powers q, q^4, q^9 of the nome q = exp(-pi K'/K). For m > 1/2 the nome exp(-pi K/K') is used,
+// at an imaginary argument (Jacobi's transformation): hyperbolic sines instead of sines. So the nome is at most
+// exp(-pi) = 0.043, its 16th power is below eps, and four terms are enough for every m and u.
 class ThetaSeries {
  public:
   struct Values {
@@ -21,7 +20,7 @@ class ThetaSeries {
   };
 
   ThetaSeries() = default;
-  // From m and the integrals K, b, and K' - b (infinite if m = 0), each given in all its digits.
+  // From m and the integrals K, b, and K' - b (infinite if m = 0), each given to all its digits.
   ThetaSeries(long double m, long double K, long double b, long double rest);
 
   Values at(double u) const;

@@ -16,14 +16,13 @@
 namespace fc::world {
 namespace {
 
-constexpr double kEverywhere = 1e12;  // m, of a box that leaves nothing out
+constexpr double kEverywhere = 1e12;  // m, of a box that contains everything
 
-// What sums of a few coordinates may lose, as a share of them, with ample room.
+// The relative error of sums of a few coordinates, with ample room.
 constexpr double kBoundsRounding = 1e-14;
 
-// Below this (m) the rounding of poses would not let a pair stop at half the tolerance: so many rounding
-// terms of chapter 1, of two bodies of the largest shape side by side. A pair may be 64 of them off (gap
-// rule).
+// With a tolerance below this (m), the rounding of poses would not let a pair stop at half of it: this many of chapter
+// 1's rounding terms, for two bodies of the largest shape side by side. The gap rule lets a pair be off by 64 of them.
 double least_tolerance(const World& world) {
   constexpr double kTerms = 256;
   double least = 0;
@@ -37,7 +36,7 @@ double least_tolerance(const World& world) {
   return least;
 }
 
-// "along (0, 0, 1) they do by 0.001 m, more than"; for a mesh no number: its depth would be a guess.
+// "by 0.001 m along (0, 0, 1), more than"; for a mesh no number: its depth would be a guess.
 std::string depth_text(const World& world, const ca::PairPose& pose, int a, int b) {
   if (!world.convex(a) || !world.convex(b)) return "their surfaces cross by more than";
   const Shape& shape_a = world.shapes[world.bodies[a].shape];
@@ -48,8 +47,8 @@ std::string depth_text(const World& world, const ca::PairPose& pose, int a, int 
       ca::penetration(core_a.convex(shape_a.radius), core_b.convex(shape_b.radius), pose);
   const auto digits = [](double x) { return std::abs(x) < 5e-4 ? 0.0 : x; };  // no -0, no 1e-17
   const Vec3& n = deep.direction;
-  return fmt::format("along ({:.3g}, {:.3g}, {:.3g}) they do by {:.4g} m, more than", digits(n.x()),
-                     digits(n.y()), digits(n.z()), deep.depth);
+  return fmt::format("by {:.4g} m along ({:.3g}, {:.3g}, {:.3g}), more than", deep.depth, digits(n.x()),
+                     digits(n.y()), digits(n.z()));
 }
 
 void refuse_overlap(const World& world, const Scene& scene, int a, int b) {
@@ -88,13 +87,13 @@ bool is_centred_ball(const Shape& shape) {
   return shape.kind == Shape::Kind::sphere && shape.core.vertices[0].isZero(0);
 }
 
-// How far the shape reaches along its own axes, m: half of the box about its centre of mass that holds it.
+// How far the shape reaches along its own axes, m: half the size of its box about its centre of mass.
 Vec3 half_extent(const Shape& shape) {
   const Eigen::AlignedBox3d bounds = bounds_of(shape);
   return bounds.max().cwiseMax(-bounds.min());
 }
 
-// Where on its free rotation a body is after `elapsed` seconds more, and how fast it then goes through it.
+// Where on its free rotation a body is after `elapsed` more seconds, and how fast it then passes through it.
 void turn_on(double spin_drag, double elapsed, double& start, double& rate) {
   start += rate * ca::decayed_time(spin_drag, elapsed);
   if (spin_drag > 0) rate *= std::exp(-spin_drag * elapsed);
@@ -136,7 +135,7 @@ void World::add_forces(const Body& body, ca::Motion& motion) const {
   motion.spin_drag = effects.drag->angular;
 }
 
-// What the scene's effects make of a body's motion from the time on at which its state stands.
+// Adds the scene's effects to a body's motion, which begins at the time of its state.
 void World::add_effects(int body, ca::Motion& motion) const {
   const Body& b = bodies[body];
   add_forces(b, motion);
@@ -156,7 +155,7 @@ RigidBody World::state_at(int body, double time) const {
   ca::Motion motion(as_it_moves(b, state));
   const bool planned = b.plan.number >= 0;
   if (is_dynamic(body) && !b.frozen && !b.asleep && !planned) add_effects(body, motion);
-  if (b.frozen && b.group >= 0) {  // forces change the velocities that it keeps, too
+  if (b.frozen && b.group >= 0) {  // forces change the velocities that it keeps
     add_forces(b, motion);
     ca::Motion kept(state);
     add_forces(b, kept);
@@ -199,7 +198,7 @@ void World::advance_to(int body, double time, double relabel) {
   Body& b = bodies[body];
   const double elapsed = time - b.time;
   const Vec3 group_velocity = b.group >= 0 ? centre_motion(body, time).velocity : Vec3(Vec3::Zero());
-  b.clock += (b.frozen ? b.time : time) - relabel;  // who is frozen is late from then on
+  b.clock += (b.frozen ? b.time : time) - relabel;  // a frozen body is late from then on
   b.state = state_at(body, time);
   b.group_velocity = group_velocity;
   if (b.free && b.plan.number >= 0) {  // from here on it turns freely again
@@ -232,14 +231,14 @@ Bounds World::swept_bounds(int body, double from, double to) const {
   if (!effects.swept) return {Vec3::Constant(-kEverywhere), Vec3::Constant(kEverywhere)};
   const ca::Motion path = centre_motion(body, from);
   const double end = to - from;
-  // What the body fills about its centre: a box if it does not turn, a ball if it does.
+  // The space that the body fills about its centre: a box if it does not turn, a ball if it does.
   const Body& b = bodies[body];
   const bool turns = !is_stationary(body) && as_it_moves(b, b.state).spin != Vec3::Zero();
   const bool ball = turns || ball_radius[b.shape] > 0;
   const Vec3 half = ball ? Vec3(Vec3::Constant(shapes[b.shape].reach))
                          : Vec3(b.state.orientation.toRotationMatrix().cwiseAbs() * half_extents[b.shape]);
-  // The centre's path, a straight line or a parabola, along each axis: its ends, and its turning point if
-  // that lies between.
+  // The centre's path, a straight line or a parabola, along each axis: its ends, and its turning point if that lies
+  // between them.
   const Vec3 start = path.position, stop = path.position_at(end);
   Bounds box{start.cwiseMin(stop), start.cwiseMax(stop)};
   for (int axis = 0; axis < 3; ++axis) {

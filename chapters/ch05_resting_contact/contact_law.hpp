@@ -1,5 +1,5 @@
-// What the contacts of an island can do to its bodies. Without friction they push along their normals; a later chapter's law may
-// do more, and stands in the same place.
+// What the contacts of an island can do to its bodies. Without friction they push along their normals; a later
+// chapter's law, which may do more, takes the same place.
 #pragma once
 
 #include <limits>
@@ -14,8 +14,8 @@ struct ContactSet {
   std::span<RigidBody> bodies;
   std::span<const int> numbers;            // of the bodies in the world
   std::span<const lcp::Contact> contacts;  // n; bodies by their places here
-  // n, or none: m/s, along the surfaces, by which a slip is larger in the middle of a plan than at its start with the same
-  // velocities, since bodies have turned and gone on by then.
+  // n, or none: m/s, along the surfaces. By this much a slip is larger in the middle of a plan than at its start, with
+  // the same velocities, because bodies have turned and moved on by then.
   std::span<const Vec3> bends = {};
 };
 
@@ -23,35 +23,36 @@ class ContactLaw {
  public:
   virtual ~ContactLaw() = default;
 
-  // Finds impulses (n; N s, world, on B) that the law allows, after which contact i closes in with at most limits_i (m/s;
-  // negative: it must part), and changes the bodies' velocities. Impulses come in as guesses. Unless solved, nothing changes.
+  // Finds impulses (n; N s, world, on B) that the law allows, after which contact i closes in with at most limits_i
+  // (m/s; negative: it must part), and changes the bodies' velocities. `impulses` comes in as a guess. Unless solved,
+  // nothing changes.
   virtual IslandResult push(const ContactSet& set, std::span<const double> limits, std::span<Vec3> impulses,
                             const IslandOptions& options) = 0;
-  // The same for velocities of paths, which put gaps right, after push() for the same contacts. The n impulses are along the
-  // normals, >= 0.
+  // The same for velocities of paths, which correct gaps, after push() for the same contacts. The n impulses are along
+  // the normals, >= 0.
   virtual IslandResult correct(const ContactSet& set, std::span<const double> limits,
                                std::span<double> impulses, const IslandOptions& options) = 0;
   // After a compression the contacts give back these normal impulses (n, N s). What acts is added to `total` (n).
   virtual void give_back(const ContactSet& set, std::span<const double> normals, std::span<Vec3> total) = 0;
-  // Up to which time (s) of a plan of `length` what push() found can act evenly: with the bodies now, and their mean
-  // velocities in the set.
+  // The time (s), in a plan of `length`, up to which the impulses that push() found can act evenly: with the bodies
+  // now, and their mean velocities in the set.
   virtual double holds_until(const ContactSet& mean, std::span<const RigidBody> now,
                              std::span<const Vec3> impulses, double length) const = 0;
-  // Whether push() looks at the set's bends.
+  // Whether push() uses the set's bends.
   virtual bool looks_at_bends() const { return false; }
-  // An estimate of the work of following a group of bodies from event to event.
+  // An estimate of the work of stepping a group of bodies from event to event.
   //   arrivals: pairs that may come into contact; rank: contact points that can push at once.
   virtual double event_work(double arrivals, int rank) const {
     const double rows = 8 + rank;
     return (1 + arrivals) * rows * rows;
   }
-  // The work done since the start: how often a solver looked at a contact.
+  // The work done since the start: how often a solver visited a contact.
   double work() const { return work_; }
-  // The most work, counted in the same way, that an island of so many bodies may take in a frame.
+  // The most work, in the same count, that an island of this many bodies may take in a frame.
   virtual double most_work(int /*bodies*/) const { return std::numeric_limits<double>::infinity(); }
-  // Of all impulses on a body, how much may be left where they should cancel.
+  // The residual, as a share of all impulses on a body, that may be left where they should cancel.
   virtual double left() const { return 0; }
-  // The sweeps of a pile.
+  // The solver of a pile.
   virtual std::unique_ptr<GaussSeidel> gauss_seidel() const { return std::make_unique<GaussSeidel>(); }
 
  protected:

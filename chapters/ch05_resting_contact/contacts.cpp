@@ -9,23 +9,24 @@
 namespace fc::resting {
 namespace {
 
-// Parts of the margin: by how much two bodies may have moved against each other before their contacts are
-// searched again; by how much a face's plane may part two bodies less than the best one and still be taken, since its
-// normal is exact; how wide a gap may be at a point of a manifold.
+// Parts of the margin: the relative motion of two bodies after which their contacts are searched again; by how much
+// less than the best plane a face's plane may separate two bodies and still be taken, because its normal is exact; the
+// widest gap at a point of a manifold.
 constexpr double kSearchAgain = 1.0 / 4, kSlack = 1.0 / 64, kFar = 4;
 
-// Of the margin: with a certified gap below this a pair is searched again, too.
+// Of the margin: a pair with a smaller certified gap is searched again, too.
 constexpr double kLeastKnown = 1.0 / 16;
 
-// How rough the distance of meshes may be that are not in contact.
+// The relative accuracy of the distance of meshes that are not in contact.
 constexpr double kRough = 0.5;
 
 // A pair that nothing queries is kept for this number of frames.
 constexpr std::int64_t kKept = 16;
 
-// By how much at most any point of the smaller body has moved, as seen from the larger one.
+// The largest distance that a point of the smaller body has moved, seen from the larger one.
 double moved(const Pose& from, const Pose& to, double reach) {
-  constexpr double kFrobenius = 0.7071067811865476;  // of a difference of rotations, to its largest stretch
+  constexpr double kFrobenius =
+      0.7071067811865476;  // of a difference of rotations: from this norm to its largest stretch
   return (to.position - from.position).norm() + kFrobenius * reach * (to.rotation - from.rotation).norm();
 }
 
@@ -58,7 +59,8 @@ SurfacePoint surface_point(const hulls::Model& model, const Vec3& point, const V
   return surface;
 }
 
-// Whether points face each other across no more than the gap along their plane: then no other plane parts the two better.
+// Whether points face each other across no more than the gap along their plane: then no other plane separates the two
+// better.
 bool face_each_other(const Manifold& manifold, double rounding) {
   return std::any_of(
       manifold.points.begin(), manifold.points.begin() + manifold.count, [&](const ManifoldPoint& point) {
@@ -71,7 +73,7 @@ ContactPoint contact_point(const hulls::Model& model_a, const hulls::Model& mode
   ContactPoint point;
   point.a = surface_point(model_a, from.point_a, a.rotation.transpose() * manifold.normal);
   point.b = surface_point(model_b, from.point_b, -(b.rotation.transpose() * manifold.normal));
-  // A plane that is no face of B turns with A, but not with a ball.
+  // A plane that is no face of B turns with A; but not with a ball.
   const bool ball_a = model_a.mesh.vertices.size() == 1, ball_b = model_b.mesh.vertices.size() == 1;
   point.balls = ball_a && ball_b;
   point.of_b = manifold.of_b || ball_a;
@@ -125,7 +127,7 @@ void Contacts::update(const world::World& world, PairContacts& pair, const Pose&
     }
     if (!pair.points.empty() && distance <= again) {
       if (is_convex) pair.gap = std::max(pair.gap, pair.axis_gap);
-      // A bound that says too little would let the path come nearer than it may.
+      // A bound that is too weak would let the path come nearer than it may.
       if (distance == 0 || pair.gap > kLeastKnown * margin_) return;
     }
     if (is_convex && pair.axis_gap > reach) {
@@ -163,7 +165,7 @@ double Contacts::axis_gap(const world::World& world, const PairContacts& pair, c
                          pair.axis_at(a, b));
 }
 
-// The plane that the pair has from its last search, like GJK's of an overlap: without witness points.
+// The plane of the pair's last search, in the form of GJK's result for an overlap: without witness points.
 ca::GjkResult Contacts::known_plane(const world::World& world, const PairContacts& pair, const Pose& a,
                                     const Pose& b) const {
   ca::GjkResult plane;
@@ -198,7 +200,7 @@ double Contacts::search(const world::World& world, PairContacts& pair, const Pos
   return convex(world, pair) ? search_convex(world, pair, a, b, reach) : search_mesh(world, pair, a, b);
 }
 
-// A new point; as a guess, the force of the same point before, or of the nearest one.
+// Adds a point. Its guess is the force of the same point before, or of the nearest one.
 void Contacts::add(PairContacts& pair, const ContactPoint& point, const std::vector<ContactPoint>& before) {
   pair.points.push_back(point);
   double nearest = std::numeric_limits<double>::infinity();
@@ -228,7 +230,7 @@ double Contacts::search_convex(const world::World& world, PairContacts& pair, co
     found = face_each_other(manifold, world.tolerance / 16);
   }
   ca::GjkResult result = found ? known : nearest(world, pair, pose);
-  // An overlap (of a pose that will not be) has no plane: the last one will be near to the next.
+  // An overlap (of a pose that will never be reached) has no plane: the last plane will be near the next one.
   if (!found && !(result.lower > 0) && pair.known && known.lower > result.lower) result = known;
   pair.of_b = false;
   pair.axis = a.rotation.transpose() * result.normal;
@@ -253,7 +255,7 @@ double Contacts::search_mesh(const world::World& world, PairContacts& pair, cons
                                            world.tolerance, std::numeric_limits<double>::infinity(), kRough)
                          .lower;
   if (gap > margin_) return gap;
-  double of_features = gap;  // certified, too, but to a sixteenth of the distance that is asked for
+  double of_features = gap;  // certified, too, but only to a sixteenth of the distance that is asked for
   for (const ca::FeaturePair& f : world::near_features(world, pair.a, pair.b, pose, a.position,
                                                        (1 + kSearchAgain) * margin_, &of_features)) {
     const bool of_b = f.kind_b == ca::FeatureKind::face;

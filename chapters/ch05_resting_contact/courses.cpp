@@ -8,17 +8,17 @@
 namespace fc::resting {
 namespace {
 
-// Boxes are wider than paths by this part of them: paths may still change a little.
+// By this part of the paths boxes are wider than they: paths may still change a little.
 constexpr double kWider = 0.5;
 
-// If pairs are kept: for so many starts, and boxes are wider by this part of a body's reach, too.
+// Limits where pairs are kept: the number of starts; and boxes are also wider by this part of a body's reach.
 constexpr int kMostStarts = 16;
 constexpr double kWiderIfKept = 0.05;
 
-// Part of the margin: contact points of a pile are searched again after this much motion.
+// In margins: contact points of a pile are searched again after this much motion.
 constexpr double kAgain = 4;
 
-// The mean of the spin that turns one orientation into another in a time.
+// The mean spin that turns one orientation into another in a given time.
 Vec3 mean_spin(const Mat3& from, const Mat3& to, double time) {
   const Eigen::AngleAxisd turn(to * from.transpose());
   return turn.angle() / time * turn.axis();
@@ -55,11 +55,11 @@ void Courses::start(const world::World& world, std::span<const Member> all, doub
   for (const Member& member : all) add_member(world, member);
 }
 
-// Whether the pairs of the last start will do, with those of bodies that leave their boxes: for a while, of the same bodies, if
-// no kinematic body moves.
+// Whether the pairs of the last start, with those of bodies that leave their boxes, are enough: for some time, if the
+// bodies are the same and no kinematic body moves.
 bool Courses::keeps(const world::World& world, std::span<const Member> all) {
-  const bool recent =
-      std::exchange(frame_, contacts_.frame()) + 1 >= contacts_.frame();  // else pairs may be forgotten
+  const bool recent = std::exchange(frame_, contacts_.frame()) + 1 >=
+                      contacts_.frame();  // otherwise pairs may have been forgotten
   if (!keep_ || !recent || ++age_ > kMostStarts || first_ != all.size() || boxes_.empty()) return false;
   for (std::size_t i = 0; i < first_; ++i)
     if (members[i].number != all[i].number) return false;
@@ -89,7 +89,7 @@ void Courses::set_member(const world::World& world, std::size_t i, const Member&
     return;
   }
   ca::Motion flight = world.motion(member.number, now_);
-  flight.position = Vec3::Zero();  // so that no digits are lost to where it is
+  flight.position = Vec3::Zero();  // so that no digits are lost to the position
   Twist& u = drift[i];
   u.linear = flight.drag == 0 ? Vec3(flight.velocity + 0.5 * length_ * flight.acceleration)
                               : Vec3(flight.position_at(length_) / length_);
@@ -129,7 +129,7 @@ world::Bounds Courses::box_of(const world::World& world, int member) const {
   return {t.start.position.cwiseMin(t.end.position) - half, t.start.position.cwiseMax(t.end.position) + half};
 }
 
-// By how much the two may come nearer each other.
+// By how much the two may approach each other (m).
 double Courses::approach(const Candidate& pair) const {
   const Path &a = paths[at(pair.a)], &b = paths[at(pair.b)];
   return length_ * ((b.velocity - a.velocity).norm() + a.spin_rate * a.reach + b.spin_rate * b.reach);
@@ -160,7 +160,7 @@ void Courses::update(const world::World& world, const Candidate& pair, bool far)
   contacts_.update(world, *pair.contacts, paths[at(pair.a)].start, paths[at(pair.b)].start, options);
 }
 
-// Members whose paths have left their boxes get new ones.
+// Gives new boxes to members whose paths have left theirs. Returns these members.
 std::vector<int> Courses::widen(const world::World& world) {
   std::vector<int> wider;
   const bool none = boxes_.empty();
@@ -222,7 +222,7 @@ PathVerdict Courses::check(const world::World& world, const Candidate& pair, con
   const double gap = pair.contacts->gap;
   options.required_gap = std::min(options.required_gap, 0.5 * gap);
   if (gap <= kTouching * world.tolerance) {
-    // It started like this, touching: then it need only not become less, but for rounding.
+    // The pair started like this, touching: its gap need only not shrink, except by rounding.
     const ca::PairPose pose(paths[at(pair.a)].start, paths[at(pair.b)].start);
     options.required_gap = gap - 64 * ca::rounding_term(world.model_of(pair.contacts->a).whole(),
                                                         world.model_of(pair.contacts->b).whole(), pose);

@@ -14,30 +14,30 @@ struct Candidate {
   PairContacts* contacts;
   int a, b;                             // places among the members
   bool in_contact = false;              // at the start
-  bool checked = false, clear = false;  // whether their paths were looked at, and proved
-  double time = 0;                      // s, if not: when they have come near
+  bool checked = false, clear = false;  // whether their paths were examined, and proved
+  double time = 0;                      // s, if not proved: when they have come near
   double slack = 0;                     // m: they are clear as long as the two paths change by less
-  double moved = 0;                     // m, by which the paths had been changed when they were looked at
+  double moved = 0;                     // m, by which the paths had changed when they were examined
 };
 
-// The bodies of a plan, and what cannot be moved and is near them, on straight paths with constant spin.
+// The bodies of a plan, and the nearby bodies that cannot be moved, on straight paths with constant spin.
 class Courses {
  public:
-  // keep: pairs are kept from one start to the next, if it is of the same bodies. Plans of PlanMaker's pairs in contact are
-  // given to it anew, and cannot be.
+  // keep: pairs are kept from one start to the next, if the bodies are the same. PlanMaker gives pairs in contact anew
+  // for each plan, so they cannot be kept there.
   Courses(Contacts& contacts, bool keep) : contacts_(contacts), keep_(keep) {}
 
-  // For `length` seconds from `now` on (s in the frame). No member has a path yet.
+  // Begins `length` seconds from `now` on (s in the frame). No member has a path yet.
   void start(const world::World& world, std::span<const Member> members, double now, double length);
-  // Adds the pairs that may come near each other, and brings their contacts to the start: at first all whose paths by their
-  // mean velocities do, then those of bodies whose paths leave the boxes that were looked at. `far`: contact points are wanted
-  // of convex pairs that may get into contact in the plan's time, too.
+  // Adds the pairs that may come near each other, and updates their contacts to the start: at first all pairs that do
+  // so at their mean velocities, then those of bodies whose paths leave the boxes that were searched. `far`: contact
+  // points are also found for convex pairs that may get into contact during the plan.
   void find(const world::World& world, bool far);
   int candidate_of(PairContacts* contacts, int a, int b);
-  // The member goes with these velocities.
+  // Gives the member a path with these velocities.
   void go(int member, const Twist& twist);
-  // Proves the paths of all pairs that have changed so much since they were proved that this says nothing any more; whether
-  // all are clear. options_of(pair): gaps stay above `required_gap`, or half of what they were.
+  // Proves the paths of all pairs that have changed so much since their last proof that it no longer holds. Returns
+  // whether all are clear. options_of(pair): gaps stay above `required_gap`, or half of what they were.
   template <class OptionsOf>
   bool prove(const world::World& world, OptionsOf&& options_of) {
     bool all = true;
@@ -59,12 +59,12 @@ class Courses {
     }
     return all;
   }
-  // One pair, on these paths.
+  // Checks one pair, on these paths.
   PathVerdict check(const world::World& world, const Candidate& pair, const Path& a, const Path& b,
                     PathOptions options);
 
-  // For loops over all candidates, at the i-th: begins to fetch what is known of later ones. Of a pile it is more than caches hold,
-  // and lies wherever it was made.
+  // For loops over all candidates, at the i-th: prefetches the data of later ones. A pile's data exceed the caches, and
+  // lie scattered in memory.
   void fetch_ahead(std::size_t i) const {
     constexpr std::size_t kPair = 12, kPoints = 6, kLine = 64;
     const auto fetch = [](const void* start, std::size_t bytes) {
@@ -83,7 +83,7 @@ class Courses {
 
   std::vector<Member> members;
   std::vector<Twist> drift;  // of each: the mean velocities of free flight
-  std::vector<Twist> last;   // what the end of free flight has more than that
+  std::vector<Twist> last;   // by how much the velocity at the end of free flight differs from that
   std::vector<Path> paths;   // of each
   std::vector<Candidate> candidates;
 
@@ -101,13 +101,13 @@ class Courses {
   bool keep_;
   bool fresh_ = true;        // nothing was found since the start
   std::int64_t frame_ = 0;   // of the last start
-  int age_ = 0;              // starts with the same pairs
-  std::size_t first_ = 0;    // members that it was started with
+  int age_ = 0;              // starts with the same pairs so far
+  std::size_t first_ = 0;    // members at the start
   std::int64_t number_ = 0;  // of starts
   double now_ = 0, length_ = 0;
   std::vector<int> place_of_;  // of each body of the world among the members, or -1
-  std::vector<double> moved_;  // m: of each member, how much its path has been changed at most, in all
-  world::BoundsTree tree_;     // of the boxes of members that can be moved; none of others
+  std::vector<double> moved_;  // m: of each member, a bound of how much its path has changed, in total
+  world::BoundsTree tree_;     // of the boxes of members that can be moved
   std::vector<world::Bounds> boxes_;
   std::vector<int> others_;
   int checked_ = 0;

@@ -10,13 +10,13 @@ namespace {
 
 constexpr double kShareOfReach = 1e-3;
 constexpr double kLeastTolerances = 100;
-constexpr double kMostRounding = 1e-6;  // of the envelope: rounding of how far bodies fall in a frame
+constexpr double kMostRounding = 1e-6;  // of the envelope: the rounding of how far bodies fall in a frame
 
 [[noreturn]] void refuse(const Scene& scene, const std::string& what) {
   throw InputError(scene.mark("envelope").value_or(SourceMark{scene.file.string()}), what);
 }
 
-// m: half of the least that a body that can be moved measures along one of its axes.
+// Half of the smallest extent (m) of a body that can be moved, along any of its axes.
 double thinnest(const world::World& world) {
   double half = std::numeric_limits<double>::infinity();
   for (int body = 0; body < static_cast<int>(world.bodies.size()); ++body)
@@ -45,17 +45,16 @@ double envelope_of(const Scene& scene, const world::World& world, double dt) {
   if (const double half = thinnest(world); envelope > half)
     refuse(
         scene,
-        fmt::format("an envelope of {:.3g} m is more than half of what the thinnest body that moves measures "
+        fmt::format("an envelope of {:.3g} m is more than half of the thickness of the thinnest moving body "
                     "({:.3g} m); narrow it",
                     envelope, 2 * half));
   const double fall = world.effects.gravity ? world.effects.gravity->norm() * dt * dt : 0;
   if (std::numeric_limits<double>::epsilon() * fall > kMostRounding * envelope)
-    refuse(
-        scene,
-        fmt::format(
-            "bodies fall {:.3g} m in a frame of {:.3g} s, and the rounding of that is not small against an "
-            "envelope of {:.3g} m; shorten step.dt, or widen it",
-            0.5 * fall, dt, envelope));
+    refuse(scene,
+           fmt::format(
+               "bodies fall {:.3g} m in a frame of {:.3g} s, and the rounding of that is not small beside an "
+               "envelope of {:.3g} m; shorten step.dt, or widen the envelope",
+               0.5 * fall, dt, envelope));
   return envelope;
 }
 

@@ -7,10 +7,10 @@
 namespace fc::resting {
 namespace {
 
-constexpr float kNever = 1e30F;  // what a dropped row allows
+constexpr float kNever = 1e30F;  // the approach that a dropped row allows
 
-// L with L L' = the inverse inertia; of a body that may not turn about all of its axes it is found in these, where the fixed ones
-// stand apart.
+// L with L L' = the inverse inertia. For a body that may not turn about all of its axes it is found in these axes,
+// where the fixed ones stand apart.
 Mat3 root_of(const RigidBody& body, const Mat3& inverse_inertia) {
   if (body.free_turns == Vec3::Ones()) return inverse_inertia.llt().matrixL();
   const Mat3 free = body.free_turns.asDiagonal(), fixed = (Vec3::Ones() - body.free_turns).asDiagonal();
@@ -107,10 +107,11 @@ void GaussSeidel::sweep() {
 }
 // ANCHOR_END: sweep
 
-// Gives the rows that were added since the last time their places. A row has to wait for the one before it if both move the same
-// body, and neighbours do: pairs come body by body. So of a long list eight pairs go in step, from eight places of it, the first row
-// of each, then the second of each: the processor works on several at once. In each part of the list pairs keep their order, so what
-// one row changes, the next one sees in the same sweep.
+// Gives places to the rows that were added since the last call. A row has to wait for the one before it if both move
+// the same body, and neighbours in the list do: pairs come body by body. So a long list is taken in eight parts, and
+// eight pairs go in step, one from each part: the first row of each, then the second of each. Then the processor works
+// on several at once. Within each part pairs keep their order, so a row sees in the same sweep what the one before it
+// has changed.
 void GaussSeidel::arrange() {
   constexpr int kInStep = 8, kLeastPart = 64;
   if (arranged_ == rows()) return;
@@ -152,8 +153,8 @@ void GaussSeidel::apply_guesses() {
   apply_more_guesses();
 }
 
-// Impulses change the kinetic energy by z'J v_0 + z'A z / 2 <= z'(b + w) / 2, since z'approach_limit >= 0. Each step of a sweep
-// lowers that, so it is <= 0 but for guesses.
+// Impulses change the kinetic energy by z'J v_0 + z'A z / 2 <= z'(b + w) / 2, since z'approach_limit >= 0. Each step of
+// a sweep lowers that, so it is <= 0 unless the guesses were bad.
 bool GaussSeidel::gains() const {
   double sum = 0, size = 0;
   for (const Row& row : rows_) {
@@ -217,7 +218,7 @@ double GaussSeidel::path_speed(int row) const {
 }
 
 void GaussSeidel::work_out(bool paths, std::vector<Twist>& result) const {
-  result.assign(masses_.size(), {});  // first the impulses of each body, N s and N m s
+  result.assign(masses_.size(), {});  // at first the impulses on each body, N s and N m s
   for (int number = 0; number < rows(); ++number) {
     const Row& row = of_row(number);
     const float scaled = paths ? row.correction : row.impulse;

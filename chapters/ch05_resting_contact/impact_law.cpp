@@ -8,10 +8,10 @@
 namespace fc::resting {
 namespace {
 
-// Of the margin: what is farther apart and comes in fast will be an event of its own.
+// Of the margin: a contact that is farther apart than this and comes in fast will be an event of its own.
 constexpr double kThere = 0.6;
 
-// After this number of rounds in one instant nothing bounces any more.
+// After this number of rounds in one instant nothing bounces.
 constexpr int kMostBounces = 8;
 
 double kinetic(const std::vector<RigidBody>& bodies) {
@@ -26,8 +26,8 @@ struct Touching {
   std::vector<lcp::Contact> contacts;  // bodies by their places among the members; without restitution
   std::vector<double> restitution;
   std::vector<Vec3> guesses;  // N s, on B
-  std::vector<char> is_fast;  // it comes in fast
-  std::vector<char> lasts;    // a plan has pushed it up to now
+  std::vector<char> is_fast;  // it approaches fast
+  std::vector<char> lasts;    // a plan has pushed it until now
   std::vector<std::uint64_t> keys;
 };
 
@@ -66,7 +66,7 @@ bool anything_closes(const ContactSet& set, double rounding) {
   });
 }
 
-// The stages of one instant; what they do is counted in its result.
+// The stages of one instant; the result counts what they do.
 struct Stages {
   ContactSet set;
   const Touching& island;
@@ -75,7 +75,7 @@ struct Stages {
   InstantResult& result;
   std::vector<Vec3> total;  // N s, of each contact
 
-  // Stops what closes, of all contacts, or of those alone that last. Impulses come in as guesses.
+  // Stops the closing of all contacts, or only of those that last. `impulses` comes in as a guess.
   bool compress(std::span<Vec3> impulses, bool all) {
     std::vector<std::size_t> which;
     std::vector<lcp::Contact> contacts;
@@ -102,8 +102,8 @@ struct Stages {
     return true;
   }
 
-  // The second stage, after a compression by `impulses` from velocities `before` of the contacts (m/s, see relative_velocity):
-  // false if nothing gives back.
+  // The second stage, after a compression by `impulses` from the contacts' velocities `before` (m/s, see
+  // relative_velocity). False if no contact gives back.
   bool give_back(const std::vector<Vec3>& impulses, const std::vector<Vec3>& before) {
     std::vector<RigidBody> expanded(set.bodies.begin(), set.bodies.end());
     std::vector<double> back(set.contacts.size());
@@ -116,7 +116,7 @@ struct Stages {
     }
     if (!any) return false;
     // ANCHOR: cap
-    double gave = 0, takes = 0;  // z'Az and r'Ar, by what the impulses do to the velocities
+    double gave = 0, takes = 0;  // z'Az and r'Ar, from what the impulses do to the velocities
     for (std::size_t i = 0; i < back.size(); ++i) {
       const Vec3 compressed = lcp::relative_velocity(set.bodies, set.contacts[i]);
       gave += impulses[i].dot(compressed - before[i]);
@@ -130,8 +130,8 @@ struct Stages {
     return true;
   }
 
-  // Both stages, again as long as something closes. Before an impact stops the other half of what plans have pushed up to now: it
-  // is no part of the impact, and does not bounce. False if one could not be solved.
+  // Both stages, repeated as long as something closes. Before an impact, the other half of what plans have pushed until
+  // now is stopped: it is no part of the impact, and does not bounce. False if a stage could not be solved.
   bool stop_what_closes(double rounding) {
     std::vector<Vec3> impulses = island.guesses;
     if (result.impact && !compress(impulses, false)) return false;

@@ -51,7 +51,7 @@ Island IslandFinder::grow(const world::World& world, int body, const std::vector
     others_.clear();
     world.schedule.overlapping({pose.position - half, pose.position + half}, [&](int other) {
       if (other == i || world::is_sensor_pair(world, i, other)) return;
-      // Of two that can be moved, whoever was looked at first has looked at both.
+      // Of two that can be moved, the one that was visited first has handled the pair.
       const auto k = at(other);
       const bool done = stamp_[k] == island_ && place_[k] < static_cast<int>(next) && pile_of[k] < 0;
       if (!world.is_dynamic(other) || !done) others_.push_back(other);
@@ -82,7 +82,7 @@ std::vector<std::vector<int>> find_piles(const world::World& world, Contacts& co
   const std::size_t count = world.bodies.size();
   std::vector<int> parent(count), arrivals(count, 0), points(count, 0);
   std::vector<char> piled(
-      count, event_work(0, 0) > most_work);  // of each root: its group is a pile, whatever else is in it
+      count, event_work(0, 0) > most_work);  // of each root: its group is a pile, whatever else it contains
   std::iota(parent.begin(), parent.end(), 0);
   const auto root = [&](int body) {
     while (parent[at(body)] != body) body = parent[at(body)] = parent[at(parent[at(body)])];

@@ -10,7 +10,7 @@
 namespace fc::resting {
 namespace {
 
-// m/s, the fastest of the points of contact, on either body.
+// The speed (m/s) of the fastest contact point, on either body.
 double fastest(std::span<const RigidBody> bodies, std::span<const lcp::Contact> contacts) {
   double speed = 0;
   for (const lcp::Contact& c : contacts)
@@ -27,7 +27,7 @@ bool has_moving_kinematic(std::span<const RigidBody> bodies) {
 
 }  // namespace
 
-// What Dantzig's method cannot solve because of rounding (many rows that say nearly the same), sweeps can, nearly.
+// Where rounding defeats Dantzig's method (many nearly dependent rows), sweeps give an approximate solution.
 void IslandSolver::sweep(std::span<const RigidBody> bodies, std::span<const lcp::Contact> contacts,
                          std::span<const double> approach_limits, std::span<const double> z,
                          lcp::LcpResult& result) {

@@ -12,8 +12,9 @@
 namespace fc::resting {
 
 struct IslandOptions {
-  std::optional<SolverSpec> chosen = {};  // the scene's solver, if it says more than the default: it alone
-  double still = 0;                       // m/s: what is slower stands still
+  std::optional<SolverSpec> chosen =
+      {};            // the scene's solver, if it differs from the default: then it is the only one used
+  double still = 0;  // m/s: slower contacts stand still
 };
 
 struct IslandResult {
@@ -25,10 +26,10 @@ struct IslandResult {
 
 // Finds impulses z >= 0 (N s), n, for contacts between bodies with
 //   w = J v+ + approach_limits >= 0,   z'w = 0,   v+ = v + M^-1 J' z,
-// and changes the bodies' velocities to v+: contact i may close in with at most approach_limits[i] (m/s; negative: it must
-// part). z comes in as a guess. By Dantzig's method; where that fails, by sweeps, to 1e-3; by the chosen solver to its
-// tolerance. Unless solved, velocities stay as they are. What would throw bodies a hundred times as fast as anything was is no
-// solution if a kinematic body does it: it presses bodies out from between others, with all the force in the world.
+// and changes the bodies' velocities to v+: contact i may close in with at most approach_limits[i] (m/s; negative: it
+// must part). z comes in as a guess. Dantzig's method solves it; where that fails, sweeps do, to 1e-3; a chosen solver,
+// to its tolerance. Unless solved, velocities stay as they are. With a kinematic body, a solution that makes bodies a
+// hundred times as fast as anything was is rejected: the kinematic body is squeezing bodies out, with unlimited force.
 class IslandSolver {
  public:
   IslandResult solve(std::span<RigidBody> bodies, std::span<const lcp::Contact> contacts,

@@ -9,7 +9,7 @@
 namespace fc::resting {
 namespace {
 
-// s, or nothing if the two keep apart.
+// The time (s) at which the two meet; nothing if they keep apart.
 std::optional<double> clash(const world::World& world, Contacts& contacts, int a, int b, double dt) {
   PairContacts& pair = contacts.pair(a, b);
   const Path path_a = path_of(world, pair.a, 0, dt), path_b = path_of(world, pair.b, 0, dt);

@@ -1,4 +1,4 @@
-// A kinematic body that goes into a static one, or into another kinematic one: nothing stops it, so the program has to say so.
+// A kinematic body that runs into a static or another kinematic one: nothing stops it, so the program reports it.
 #pragma once
 
 #include <set>
@@ -9,16 +9,17 @@
 
 namespace fc::resting {
 
-// A kinematic body runs into one that cannot give way either.
+// A kinematic body runs into a body that cannot give way either.
 struct Clash {
   int kinematic, other;  // by their numbers in the world
-  double time;           // s, from when look() looks on
+  double time;           // s, from the time of the call of look()
 };
 
 class KinematicWatch {
  public:
-  // The clashes of the next dt seconds, each pair only the first time. A pair that touches at the start clashes if its overlap
-  // grows by more than the tolerance; a pair with a mesh that touches at the start is not looked at.
+  // The clashes of the next dt seconds; each pair is reported only the first time. A pair that touches at the start
+  // clashes if its overlap grows by more than the tolerance; a pair with a mesh that touches at the start is not
+  // examined.
   std::vector<Clash> look(const world::World& world, Contacts& contacts, double dt);
 
  private:

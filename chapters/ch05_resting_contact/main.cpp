@@ -33,9 +33,9 @@ int main(int argc, char** argv) {
   chapter.name = "ch05_resting_contact";
   chapter.purpose =
       "Moves rigid bodies that collide, rest, slide and stack, without friction. With the key `envelope`, "
-      "bodies nearer than that are in contact and go by plans: proved paths that use no gap up, with impulses that act "
-      "all along. Without it, everything is as in chapter 4. Bodies that meet in one frame so often that nobody could go "
-      "from one event to the next are a pile: its contacts are solved to a residual that is reported, two plans a frame, and "
+      "bodies nearer than that are in contact and follow plans: proved paths that keep every gap open, with impulses that act "
+      "during the whole plan. Without it, everything is as in chapter 4. Bodies that meet too often in one frame to go "
+      "from one event to the next form a pile: its contacts are solved to a residual that is reported, two plans a frame, and "
       "where paths cannot be proved they are shortened, which is reported as `lost_impulse`.";
   chapter.example = "build/bin/ch05_resting_contact chapters/ch05_resting_contact/scenes/stack.yaml";
   chapter.explain = explain;

@@ -9,12 +9,13 @@
 namespace fc::resting {
 namespace {
 
-constexpr int kMostCorners = 64;       // of a face; more are thinned out
-constexpr double kSame = 1e-9;         // of both reaches: corners nearer than this are one
-constexpr double kParallel = 1e-3;     // sine of the angle between segments that lie along each other
-constexpr double kLeastFacing = 0.05;  // cosine of the angle up to which a face has a height along the normal
+constexpr int kMostCorners = 64;    // of a face; a face with more is thinned out
+constexpr double kSame = 1e-9;      // of both reaches: corners nearer than this are one
+constexpr double kParallel = 1e-3;  // sine of the angle between segments that lie along each other
+constexpr double kLeastFacing =
+    0.05;  // the least cosine used between the normals of a face and of the manifold
 
-// A corner of a polygon, projected: where it is in the plane, how high, and which two lines meet there.
+// A corner of a projected polygon: its place in the plane, its height, and the two lines that meet there.
 struct Corner {
   double x, y, height;  // m
   int line_in, line_out;
@@ -30,7 +31,7 @@ struct Polygon {
   std::span<const Corner> all() const { return {corners.data(), static_cast<std::size_t>(count)}; }
 };
 
-// The plane across the normal, and what lies in it.
+// The plane perpendicular to the normal, and its axes.
 struct Frame {
   Vec3 u, v, n;
   explicit Frame(const Vec3& normal) : n(normal) {
@@ -53,7 +54,7 @@ int best_face(const FaceList& faces, const Vec3& direction) {
   return best;
 }
 
-// What a cylinder or cone turns towards the other body, seen along the normal; anticlockwise there.
+// The outline of a cylinder or cone towards the other body, seen along the normal; anticlockwise there.
 void project(const hulls::Outline& outline, const Mat3& rotation, const Vec3& offset, const Frame& frame,
              bool reverse, Polygon& polygon) {
   polygon.count = 0;
@@ -65,7 +66,7 @@ void project(const hulls::Outline& outline, const Mat3& rotation, const Vec3& of
   }
 }
 
-// The face (or all vertices, of a segment or a point), seen along the normal; anticlockwise there.
+// The face (or all vertices, for a segment or a point), seen along the normal; anticlockwise there.
 void project(const ManifoldSide& side, int face, const Mat3& rotation, const Vec3& offset, const Frame& frame,
              bool reverse, Polygon& polygon) {
   const auto& vertices = side.model.mesh.vertices;
@@ -85,7 +86,7 @@ void project(const ManifoldSide& side, int face, const Mat3& rotation, const Vec
   }
 }
 
-// Cuts the subject by the line from p to q (number `line`); what is left of it stays (Sutherland, Hodgman).
+// Cuts the subject along the line from p to q (number `line`); keeps the part on its inner side (Sutherland, Hodgman).
 void cut(std::span<const Corner> subject, const Corner& p, const Corner& q, int line, Polygon& result) {
   const double dx = q.x - p.x, dy = q.y - p.y;
   const auto inside = [&](const Corner& c) { return dx * (c.y - p.y) - dy * (c.x - p.x); };
@@ -101,7 +102,7 @@ void cut(std::span<const Corner> subject, const Corner& p, const Corner& q, int 
     const double there = inside(to);
     if ((here >= 0) == (there >= 0)) continue;
     const double t = here / (here - there);
-    // The polygon goes on along the cutting line, and comes back from it.
+    // The polygon leaves along the cutting line, and comes back from it.
     const bool leaves = here >= 0;
     result.add({from.x + t * (to.x - from.x), from.y + t * (to.y - from.y),
                 from.height + t * (to.height - from.height), leaves ? from.line_out : line,
@@ -122,7 +123,7 @@ struct Plane {
   double height(const Corner& c) const { return x * c.x + y * c.y + constant; }
 };
 
-// A body of the pair, and the face that it turns towards the other one.
+// A body of the pair, and its face towards the other body.
 struct Facing {
   const ManifoldSide& side;
   Mat3 rotation, to_body;  // body axes to world axes, and back
@@ -131,7 +132,7 @@ struct Facing {
   hulls::Outline outline;  // if it is curved
   int face = -1;           // -1: it has none
 
-  // direction: unit, world, out of the body.
+  // direction: unit, world, outward.
   Facing(const ManifoldSide& its_side, const Mat3& its_rotation, const Vec3& its_offset,
          const Vec3& direction)
       : side(its_side),
@@ -147,7 +148,7 @@ struct Facing {
     if (side.model.curved()) return rotation * outline.normal;
     return rotation * side.faces.normals[static_cast<std::size_t>(face)];
   }
-  // Whether a plane can turn with the face. What is round rolls out of its plane.
+  // Whether the plane can turn with the face. A round side rolls out of its plane.
   bool has_plane() const { return face >= 0 && (!side.model.curved() || outline.count > 2); }
   void project_to(const Frame& frame, const Vec3& direction, bool reverse, Polygon& polygon) const {
     if (side.model.curved())
@@ -162,7 +163,7 @@ struct ManifoldPoints {
   const Facing &a, &b;
   Frame frame;
   double far, radii, same;
-  double least;  // m, of the points' gaps
+  double least;  // m, the least of the points' gaps
   Manifold& manifold;
 
   ManifoldPoints(const Facing& facing_a, const Facing& facing_b, double farthest, Manifold& filled)
@@ -194,7 +195,7 @@ struct ManifoldPoints {
     add(frame.at(x, y, height_a), frame.at(x, y, height_b), gap, key);
   }
 
-  // Two faces, or a face and less: the one with fewer corners is cut by the other one's sides.
+  // Two faces, or a face and an edge or point: the one with fewer corners is cut by the sides of the other one.
   void cut_faces(const Polygon& first, const Polygon& second) {
     static thread_local Polygon results[2];
     const bool swap = second.count < first.count;
@@ -216,7 +217,7 @@ struct ManifoldPoints {
     }
   }
 
-  // Two segments that lie along each other: the ends of what they share.
+  // Two segments along each other: the ends of their common part.
   void join_segments(const Polygon& first, const Polygon& second) {
     const auto &p = first.corners, &q = second.corners;
     const double dx = p[1].x - p[0].x, dy = p[1].y - p[0].y, length = std::hypot(dx, dy);
@@ -235,7 +236,8 @@ struct ManifoldPoints {
     }
   }
 
-  // They touch, to rounding, and have no nearest points: those farthest along the normal, brought over each other.
+  // The bodies touch, up to rounding, and have no nearest points: takes those farthest along the normal, and brings
+  // them over each other.
   void bring_together() {
     const Vec3 far_a = a.rotation * ca::support(a.core, a.to_body * manifold.normal).point;
     const Vec3 far_b = b.rotation * ca::support(b.core, -(b.to_body * manifold.normal)).point + b.offset;
@@ -246,7 +248,7 @@ struct ManifoldPoints {
   }
 };
 
-// The plane that was found, or a face's, if that parts the bodies as well up to the slack.
+// The plane that was found, or a face's, if that one separates the bodies as well up to the slack.
 void choose_plane(const Facing& a, const Facing& b, const ca::PairPose& pose, const ca::GjkResult& nearest,
                   double slack, Manifold& manifold) {
   manifold.normal = nearest.normal;

@@ -21,10 +21,11 @@ struct FaceList {
 FaceList build_face_list(const hulls::FeatureMesh& mesh);
 
 struct ManifoldPoint {
-  static constexpr std::uint64_t kBroughtTogether = 4;  // key of a point where the two do not face each other
+  static constexpr std::uint64_t kBroughtTogether =
+      4;  // key of a point where the two bodies do not face each other
   Vec3 point_a = Vec3::Zero(), point_b = Vec3::Zero();  // m, on the surfaces, each in its body's axes
   double gap = 0;                                       // m, along the manifold's normal
-  std::uint64_t key = 0;  // which edges meet there: the same point has the same key in the next frame
+  std::uint64_t key = 0;  // which edges meet there: the same point keeps its key in the next frame
 };
 
 // Points at which two bodies face each other along one plane that separates them.
@@ -43,11 +44,11 @@ struct ManifoldSide {
   const FaceList& faces;
 };
 
-// The manifold at a pose. The plane is the one that `nearest` found, or a face's, if that parts the bodies as
-// well up to `slack` (m): a face's normal is exact. Along it the two nearest faces are projected onto each
-// other, and the corners of what they share are the points; those with a gap above `far` (m) are left out.
-// What the faces do not show, the witness points of `nearest` do. A segment or a point counts as a face, and
-// so does what a cylinder or a cone turns towards the other body (outline.hpp).
+// The manifold at a pose. Its plane is the one that `nearest` found; or that of a face, if it separates the bodies as
+// well up to `slack` (m): a face's normal is exact. The two nearest faces are projected onto each other along the
+// normal, and the corners of their common area are the points; those with a gap above `far` (m) are left out. Where the
+// faces give no point, the witness points of `nearest` do. A segment or a point counts as a face, and so does the
+// outline of a cylinder or cone towards the other body (outline.hpp).
 void find_manifold(const ManifoldSide& a, const ManifoldSide& b, const ca::PairPose& pose,
                    const ca::GjkResult& nearest, double slack, double far, Manifold& manifold);
 

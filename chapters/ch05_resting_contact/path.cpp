@@ -8,7 +8,7 @@ namespace fc::resting {
 namespace {
 
 // Intervals are halved down to this part of the whole.
-constexpr double kLeastStep = 1.0 / 64, kRoughStep = 1.0 / 32;  // the second if advancement follows
+constexpr double kLeastStep = 1.0 / 64, kRoughStep = 1.0 / 32;  // the second where advancement follows
 
 // A plane between two convex bodies at one time (s), and the gap along it (m, certified).
 struct PlaneAt {
@@ -32,9 +32,9 @@ struct Moving {
         reach(path.reach) {}
 };
 
-// How much a point of `body` is accelerated at most, seen in axes that stand on `viewer` and turn with it
-// (m/s^2): p'' = a_p - w x (w x r) - 2 w x u, with r from the viewer's centre and u the velocity that it
-// sees.
+// The largest acceleration of a point of `body`, seen in axes that are fixed to `viewer` and turn with it (m/s^2): p''
+// = a_p - w x (w x r) - 2 w x u, with r from the viewer's centre and u the velocity seen from it (centrifugal and
+// Coriolis terms).
 double bend_seen_from(const Moving& viewer, const Moving& body, double dt) {
   const Vec3 apart = body.position - viewer.position, velocity = body.velocity - viewer.velocity;
   const double acceleration = (body.acceleration - viewer.acceleration).norm();
@@ -46,8 +46,8 @@ double bend_seen_from(const Moving& viewer, const Moving& body, double dt) {
   return bend + w * w * (apart.norm() + dt * speed) + 2 * w * seen;
 }
 
-// The least that a function can be on [0, 1] that is `start` and `end` at its ends, and lies no more than
-// 4 sag x (1 - x) below the line between them.
+// The least value that a function can have on [0, 1] if it is `start` and `end` at the ends, and lies at most 4 sag x
+// (1 - x) below the line between them.
 // ANCHOR: least
 double least_between(double start, double end, double sag) {
   const double slope = end - start - 4 * sag;  // at the start
@@ -57,12 +57,12 @@ double least_between(double start, double end, double sag) {
 }
 // ANCHOR_END: least
 
-// The gap that planes prove between two times; m.
+// The gap (m) that planes prove between two times.
 double least_gap(const ca::Convex& core_a, const ca::Convex& core_b, const Path& a, const Path& b,
                  const PlaneAt& from, const PlaneAt& to, double enough) {
   const double dt = to.time - from.time, share = dt * dt / 8;
   const Moving moving_a(a, from.time, from.a), moving_b(b, from.time, from.b);
-  // One that turns evenly, as two edges do that lie across, and goes with A's centre.
+  // A plane that turns evenly, as between two crossing edges, and moves with A's centre.
   Moving plane = moving_a;
   const Vec3 across = from.normal.cross(to.normal);
   const double sine = across.norm();
@@ -73,7 +73,7 @@ double least_gap(const ca::Convex& core_a, const ca::Convex& core_b, const Path&
   const auto at = [&](const PlaneAt& place, const Vec3& normal) {
     return ca::support_gap(core_a, core_b, ca::PairPose(place.a, place.b), normal);
   };
-  // Those that go with one of the bodies: the one at the start, and the one at the end.
+  // Planes fixed to one of the bodies: the plane at the start, and the one at the end.
   for (const bool on_a : {true, false}) {
     if (best >= enough) break;
     const Mat3 turn = on_a ? Mat3(to.a.rotation * from.a.rotation.transpose())
@@ -87,7 +87,7 @@ double least_gap(const ca::Convex& core_a, const ca::Convex& core_b, const Path&
   return best;
 }
 
-// Whether planes prove it; nothing if there is none to begin with.
+// Whether planes prove the path; nothing if there is no plane to begin with.
 std::optional<PathVerdict> by_planes(const world::World& world, const Contacts& contacts, PairContacts& pair,
                                      const Path& a, const Path& b, double dt, const PathOptions& options) {
   const ca::Convex core_a = world.model_of(pair.a).leaf(0), core_b = world.model_of(pair.b).leaf(0);
@@ -168,7 +168,7 @@ PathVerdict check_path(const world::World& world, const Contacts& contacts, Pair
   if (steady && pair.known && Contacts::convex(world, pair)) {
     if (!pair.axis_known) pair.axis_gap = contacts.axis_gap(world, pair, a.start, b.start);
     pair.axis_known = true;
-    if (pair.axis_gap >= required_gap) {  // the plane that is known, without a search
+    if (pair.axis_gap >= required_gap) {  // the known plane, without a search
       const Moving moving_a(a, 0, a.start), moving_b(b, 0, b.start);
       const double sag =
           dt * dt / 8 *

@@ -11,19 +11,19 @@ namespace {
 // A path is clear if its gap stays above this part of the margin, or half of what it was.
 constexpr double kPathFloor = 1.0 / 64;
 
-// The largest part of their kinetic energy that a pile's plans may add to it in a frame.
+// The largest share of their kinetic energy that a pile's plans may add to it in a frame.
 constexpr double kMostGained = 0.01;
 
-// A pile settles when its bodies are slower than this part of a margin in a frame. Then it is swept until this residual is reached.
+// A pile settles when its bodies are slower than this many margins in a frame. Then it is swept down to this residual.
 constexpr double kSettles = 1.0 / 4, kSettled = 1e-4;
 
-// Pairs of nodes that are looked at in one proof.
+// Pairs of nodes that one proof may examine.
 constexpr std::int64_t kMostNodePairs = 50'000;
 
-// Of the time until two come near: so far they go. And what is less than this share is nothing.
+// Bodies go this share of the way until two come near. A share below the second number counts as nothing.
 constexpr double kOfFree = 0.9, kLeastShare = 1e-3;
 
-// Finds shares of the paths of a pile with which no body is in the way of another.
+// Finds shares of the paths of a pile for which no body is in another's way.
 class Shortening {
  public:
   Shortening(const world::World& world, Courses& courses, std::vector<double>& shares,
@@ -75,8 +75,8 @@ class Shortening {
                          path.reach, courses_.length());
   }
 
-  // Lowers the shares of the two until their paths are clear: the larger one first, at most to the smaller; then both alike,
-  // since together they move as they would, but slower.
+  // Lowers the shares of the two bodies until their paths are clear. First the larger share, at most to the smaller
+  // one; then both together, so that the two move as they would, but more slowly.
   void take(const Candidate& pair, double floor) {
     const bool dynamic_a = courses_.members[at(pair.a)].dynamic,
                dynamic_b = courses_.members[at(pair.b)].dynamic;
@@ -100,7 +100,7 @@ class Shortening {
       if (dynamic_a) share_a = lower(share_a, 0);
       if (dynamic_b) share_b = lower(share_b, 0);
       if (share_a != before_a || share_b != before_b) continue;
-      for (const int member : {pair.a, pair.b})  // they stand, and a kinematic body goes into one
+      for (const int member : {pair.a, pair.b})  // they stop, and a kinematic body runs into one
         if (!courses_.members[at(member)].dynamic && courses_.paths[at(member)].moves)
           blocked_.push_back(courses_.members[at(member)].number);
       return;
@@ -167,7 +167,7 @@ double PilePlanner::smallest_gap() const {
   return gap;
 }
 
-// All impulses act at the end.
+// All impulses act at the plan's end.
 Planned PilePlanner::take(const world::World& world) {
   std::vector<RigidBody> bodies = courses_.with(velocities_);
   Planned result;
@@ -185,7 +185,7 @@ Planned PilePlanner::take(const world::World& world) {
     const Member& member = courses_.members[i];
     if (!member.dynamic) continue;
     const Path& path = courses_.paths[i];
-    const double share = shares_[i];  // of what it has at the end, too
+    const double share = shares_[i];  // also of what it gets at the end
     const Twist without = free_velocities(courses_, i);
     result.bodies.push_back(member.number);
     result.motions.push_back(planned_motion(member, {path.velocity, path.spin}, without, courses_.length()));

@@ -1,4 +1,4 @@
-// Piles: bodies that meet so often in one frame that going from event to event would take too long.
+// Piles: groups of bodies that meet too often in one frame to be stepped from event to event.
 #pragma once
 
 #include <algorithm>
@@ -10,23 +10,24 @@ namespace fc::resting {
 
 struct PileOptions {
   double frame =
-      0;  // s: what comes in faster than a margin in that time gives back what its restitution says
+      0;  // s: a contact that closes by more than a margin in this time gives back what its restitution says
   int sweeps = 16;
-  int rounds = 3;                 // in which pairs whose paths are not clear are looked at again,
-  int path_sweeps = 8;            // sweeps in each of these rounds
-  int visits = 4000;              // of rows, in all sweeps together: more sweeps, if they would be fewer
-  int settling_visits = 150'000;  // of rows at most, if it nearly stands and the residual is not small
-  bool report_rows = true;        // whether rows are wanted
+  int rounds = 3;       // in which pairs whose paths are not clear are examined again,
+  int path_sweeps = 8;  // sweeps in each of these rounds
+  int visits = 4000;    // the least number of row visits in all sweeps: small piles get more sweeps
+  int settling_visits =
+      150'000;              // the most row visits, if the pile nearly stands and the residual is not small
+  bool report_rows = true;  // whether the plan lists its rows
 };
 
-// Plans for piles. There are no events in one: whatever arrives within the plan's time does so at its end, and gives back at
-// the end what its restitution says.
-//   1. From v + T g, the velocities after free flight, and from u, its mean velocities, sweeps find the end's velocities (no
-//      contact closes in by more than what is left of its gap) and the paths' (gaps end as wanted), all rows at once.
-//   2. All paths are proved. For pairs whose are not clear the rows are corrected to the gaps at the end as they will be, with
-//      the points that the two have there, and paths are swept again.
-//   3. A body that is then still in the way of another goes only a share of its path, and keeps that share of its velocity;
-//      bodies that push each other keep one share together, since then they move as they would, but slower.
+// Plans for piles. A pile has no events: what arrives within the plan's time arrives at its end, and gives back there
+// what its restitution says.
+//   1. From v + T g, the velocities after free flight, and from u, its mean velocities, sweeps find the velocities at the end (no
+//      contact closes in by more than the rest of its gap) and those of the paths (gaps end as wanted), all rows at once.
+//   2. All paths are proved. For a pair whose paths are not clear, the rows are corrected to the gaps that it will have at the
+//      end, with the points that it has there, and the paths are swept again.
+//   3. A body that is then still in another's way goes only a share of its path, and keeps that share of its velocity. Bodies
+//      that push each other get one common share: then they move as they would, but more slowly.
 class PilePlanner {
  public:
   PilePlanner(Contacts& contacts, const ContactLaw& law)
@@ -41,8 +42,8 @@ class PilePlanner {
   // What the last make() did:
   double lost_impulse() const { return lost_; }  // N s, that shortening took
   int shortened() const { return shortened_; }   // bodies
-  bool gains() const { return gains_; }  // whether it adds more energy than is small beside what there is
-  // Kinematic bodies (by their numbers in the world) that went into what could not give way.
+  bool gains() const { return gains_; }  // whether it adds a considerable share to the energy that there is
+  // Kinematic bodies (by their numbers in the world) that ran into what cannot give way.
   const std::vector<int>& blocked() const { return blocked_; }
   double residual() const { return gauss_seidel_->residual(); }
   int sweeps() const { return swept_; }
@@ -61,7 +62,7 @@ class PilePlanner {
   PileRows rows_;
   PileOptions options_;
   std::vector<Twist> velocities_, paths_;  // of each member, at the end
-  std::vector<double> shares_;             // of its path that a member goes
+  std::vector<double> shares_;             // the share of its path that a member goes
   std::vector<int> blocked_;
   double lost_ = 0;
   bool gains_ = false;

@@ -6,10 +6,10 @@
 namespace fc::resting {
 namespace {
 
-// An island stands if its bodies are slower than this part of the rest speed.
+// An island stands if its bodies are slower than this share of the rest speed.
 constexpr double kStands = 1e-3;
 
-// How long an island is a pile after it has spent its budget, at first and at most.
+// For how many frames an island is a pile after it has spent its budget: the first time, and at most.
 constexpr int kLeastFrames = 8, kMostFrames = 256;
 
 // A pile is calm if more frames than this have passed since one of its paths was shortened.

@@ -34,7 +34,7 @@ void PileRows::start(const world::World& world) {
   }
 }
 
-// Members that the sweeps have not heard of, and pairs.
+// Adds the members that the sweeps do not know yet, and their pairs.
 void PileRows::add_members() {
   for (std::size_t i = at(gauss_seidel_->bodies()); i < courses_.members.size(); ++i)
     gauss_seidel_->add_body(courses_.members[i].state, free_velocities(courses_, i), courses_.drift[i]);
@@ -56,7 +56,7 @@ lcp::Contact PileRows::contact_of(const world::World& world, const Row& row) con
           world.turns(courses_.members[at(pair.b)].number)};
 }
 
-// All rows of a pair are there, from `first` on.
+// All rows of a pair have been added, from `first` on.
 void PileRows::end_pair(int candidate, int first) {
   if (first == count()) return;
   const PairContacts& pair = *courses_.candidates[at(candidate)].contacts;
@@ -67,7 +67,7 @@ void PileRows::end_pair(int candidate, int first) {
   gauss_seidel_->end_pair(first, pair.a, pair.b, guesses_);
 }
 
-// Its rows, of the points that it has at the start. Most share one normal.
+// Adds rows for the points that the pair has at the start. Most share one normal.
 void PileRows::add_pair(const world::World& world, int candidate) {
   const Candidate& pair = courses_.candidates[at(candidate)];
   const std::vector<ContactPoint>& points = pair.contacts->points;
@@ -106,7 +106,8 @@ int PileRows::add_row(const lcp::Contact& contact, int candidate, int place, boo
   return number;
 }
 
-// Rows of a pair whose paths are not clear: with the gaps at the end as they will be, and with all points that it has there.
+// Renews the rows of a pair whose paths are not clear: with the gaps that it will have at the end, and with all points
+// there.
 void PileRows::look_again(const world::World& world, int candidate) {
   const Candidate pair = courses_.candidates[at(candidate)];
   const Path &a = courses_.paths[at(pair.a)], &b = courses_.paths[at(pair.b)];
@@ -130,7 +131,7 @@ void PileRows::look_again(const world::World& world, int candidate) {
   end_pair(candidate, first);
 }
 
-// An impulse at the end of a path needs a contact there.
+// An impulse at the end of a path needs a contact there: others are dropped.
 int PileRows::drop_what_acts_on_air() {
   constexpr int kMostTimes = 3, kSweeps = 4;
   int swept = 0;
@@ -151,8 +152,8 @@ int PileRows::drop_what_acts_on_air() {
   return swept;
 }
 
-// What bounces gives back what its restitution says, with the largest factor <= 1 for all with which this takes no more energy
-// than the impulses gave (see impact_law.hpp).
+// What bounces gives back what its restitution says, with the largest common factor <= 1 for which this takes no more
+// energy than the impulses gave (see impact_law.hpp).
 void PileRows::give_back(const world::World& world, double rest_speed, std::vector<RigidBody>& bodies) {
   back_.assign(rows_.size(), 0);
   bool any = false;
@@ -167,7 +168,7 @@ void PileRows::give_back(const world::World& world, double rest_speed, std::vect
   std::vector<RigidBody> bounced = bodies;
   for (int i = 0; i < count(); ++i)
     if (back_[at(i)] > 0) lcp::apply_impulse(bounced, contact_of(world, rows_[at(i)]), back_[at(i)]);
-  double gave = 0, takes = 0;  // z'Az and r'Ar, by what the impulses do to the velocities
+  double gave = 0, takes = 0;  // z'Az and r'Ar, from what the impulses do to the velocities
   for (int i = 0; i < count(); ++i) {
     const double z = gauss_seidel_->impulse(i);
     if (!(z > 0)) continue;
@@ -183,7 +184,7 @@ void PileRows::give_back(const world::World& world, double rest_speed, std::vect
   }
 }
 
-// For the next plan's guess; and which contacts last: where something pushes, all points.
+// Stores guesses for the next plan, and which contacts last: all points of a pair, if one of them pushes.
 void PileRows::remember() const {
   std::vector<char> pushes(courses_.candidates.size(), 0);
   for (int i = 0; i < count(); ++i)
@@ -197,7 +198,7 @@ void PileRows::remember() const {
   }
 }
 
-// What the rows did. swept, bounced: the members at the end, before and after they give back.
+// Reports what the rows did. swept, bounced: the members at the end, before and after they give back.
 void PileRows::report(const world::World& world, std::span<const RigidBody> swept,
                       std::span<const RigidBody> bounced, bool all, Planned& result) const {
   std::vector<Twist> without;

@@ -1,4 +1,4 @@
-// The rows of a pile's plan: which contact each stands for, and what it did.
+// The rows of a pile's plan: which contact each row stands for, and what it did.
 #pragma once
 
 #include <span>
@@ -9,10 +9,10 @@
 
 namespace fc::resting {
 
-// The velocities with which free flight would end a member's plan.
+// The velocities that free flight would give a member at its plan's end.
 Twist free_velocities(const Courses& courses, std::size_t member);
 
-// Whether the members have less kinetic energy than if all went at this speed (m/s).
+// Whether the members have less kinetic energy than if all moved at this speed (m/s).
 bool are_slow(std::span<const Member> members, double speed);
 
 class PileRows {
@@ -20,20 +20,22 @@ class PileRows {
   PileRows(Contacts& contacts, const Courses& courses, GaussSeidel& gauss_seidel)
       : contacts_(contacts), courses_(courses), gauss_seidel_(&gauss_seidel) {}
 
-  // One for each contact point of the courses' pairs.
+  // Adds one row for each contact point of the courses' pairs.
   void start(const world::World& world);
-  // The courses may have found more since.
+  // Adds what the courses have found since.
   void add_members();
-  // Corrects the pair's rows to the gaps at the end of its paths as they will be, and adds one for each other point that it has
-  // there.
+  // Corrects the pair's rows to the gaps that it will have at the end of its paths, and adds a row for each other point
+  // that it has there.
   void look_again(const world::World& world, int candidate);
-  // An impulse at the end of a path needs a contact there: those without have none any more. Returns how often it swept.
+  // An impulse at the end of a path needs a contact there: impulses without one are dropped. Returns how often it
+  // swept.
   int drop_what_acts_on_air();
-  // Adds to velocities at the end what contacts give back that came in faster than rest_speed (m/s).
+  // Adds to the velocities at the end what those contacts give back that approached faster than rest_speed (m/s).
   void give_back(const world::World& world, double rest_speed, std::vector<RigidBody>& bodies);
-  // Keeps impulses as the next plan's guesses.
+  // Stores impulses as guesses for the next plan.
   void remember() const;
-  // What kinematic bodies did, and, of `all`, each row. swept, bounced: the members at the end, before and after give_back().
+  // Reports what kinematic bodies did and, of `all`, each row. swept, bounced: the members at the end, before and after
+  // give_back().
   void report(const world::World& world, std::span<const RigidBody> swept, std::span<const RigidBody> bounced,
               bool all, Planned& result) const;
   int count() const { return static_cast<int>(rows_.size()); }
@@ -42,8 +44,8 @@ class PileRows {
   struct Row {
     int pair;       // among the candidates
     int place;      // among the points of the pair, or, if `late`, among late_
-    int next;       // row of the same pair, or -1
-    double before;  // m/s: how fast the contact parts after free flight
+    int next;       // the next row of the same pair, or -1
+    double before;  // m/s: how fast the contact would part after free flight
     bool late;      // found at the end of a path that is not clear
     bool arrives;   // not in contact at the start
   };

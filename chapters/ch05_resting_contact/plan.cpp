@@ -11,26 +11,26 @@ namespace {
 // A path is clear if its gap stays above this part of the margin, or half of what it was.
 constexpr double kFloor = 1.0 / 64;
 
-// Of the margin: two bodies that come in fast, and bounce, are stopped at half of this gap, as in chapter 4.
+// Of the margin: two bodies that approach fast, and bounce, are stopped at half of this gap, as in chapter 4.
 constexpr double kStop = 0.25;
 
-// Of the margin: a pair that bounces and comes in fast is no contact yet above this gap.
+// Of the margin: above this gap a pair that bounces and approaches fast is not yet a contact.
 constexpr double kRoom = 0.55;
 
-// A pair that turns in contact is proved sooner by a shorter plan than by ever smaller steps: so many pairs of nodes are
-// looked at, of two convex bodies and of meshes.
+// A pair that turns in contact is proved sooner by a shorter plan than by ever smaller steps. A proof may examine this
+// many pairs of nodes, for two convex bodies and for meshes.
 constexpr std::int64_t kMostPairs = 1000, kMostPairsOfMeshes = 50'000;
 
-// Of the bodies' kinetic energy, by which pushes may add to it until the plan's end.
+// The share of the bodies' kinetic energy that pushes may add to it until the plan's end.
 constexpr double kMostBorrowed = 0.002;
 
-// So often the plans of a body end in a frame because impulses have to change.
+// In one frame, a body's plans may end this often because impulses have to change.
 constexpr int kMostChanges = 8;
 
 constexpr int kHalvings = 16;   // of a plan's time, to find when a point arrives
 constexpr int kMostProofs = 4;  // rounds in which unproved pairs become rows
 
-// Whether a pair that bounces comes in fast: it is in the margin, but there is room left.
+// Whether a pair that bounces approaches fast: it is within the margin, but has room left.
 bool comes_in_fast(const IslandPair& pair, std::span<const Member> members, double rest_speed,
                    double margin) {
   const RigidBody &a = members[at(pair.a)].state, &b = members[at(pair.b)].state;
@@ -88,7 +88,7 @@ std::shared_ptr<const Planned> PlanMaker::make(const world::World& world, const 
   }
 }
 
-// One plan, from now on.
+// One plan of this length, from now on.
 PlanResult PlanMaker::try_length(const world::World& world, const Island& island, double now, double length,
                                  bool may_change) {
   const double margin = contacts_.margin();
@@ -100,7 +100,8 @@ PlanResult PlanMaker::try_length(const world::World& world, const Island& island
     courses_.candidates[at(candidate)].in_contact = !pair.contacts->points.empty();
     for (const ContactPoint& point : pair.contacts->points) {
       const PlanRow row = rows_.row_of(world, candidate, point, false);
-      if (row.contact.gap <= margin) rows_.rows.push_back(row);  // proofs find out what arrives, and how fast
+      if (row.contact.gap <= margin)
+        rows_.rows.push_back(row);  // later the proofs find what arrives, and how fast
     }
   }
   const auto options_of = [&](const Candidate& pair) {
@@ -133,9 +134,9 @@ PlanResult PlanMaker::try_length(const world::World& world, const Island& island
   return PlanResult::unproved;
 }
 
-// Whether the pushes add more kinetic energy than a plan may borrow until its end takes it back. Bodies that turn a plane by an
-// angle of t on a path borrow t^2 / 4 of theirs. And whether those that turn freely would gain at the end, where their spins
-// change as if nothing had pushed them.
+// Whether the pushes add more kinetic energy than a plan may borrow until its end takes it back. Bodies that turn a
+// plane by an angle of t on a path borrow t^2 / 4 of theirs. Also whether bodies that turn freely would gain energy at
+// the end, where their spins change as if nothing had pushed them.
 bool PlanMaker::gains() const {
   double gain = 0, size = 0, end_gain = 0;
   for (std::size_t i = 0; i < courses_.members.size(); ++i) {
@@ -156,8 +157,9 @@ bool PlanMaker::gains() const {
   return std::max(gain, end_gain) > kMostBorrowed * size;
 }
 
-// The points that an unproved pair has at the end of its path become rows; whether there are new ones. One that comes in fast
-// there is an event instead, but for the next faces of a mesh that is in contact.
+// Adds rows for the points that an unproved pair has at the end of its path; returns whether there are new ones. A
+// point that approaches fast there is an event instead, unless it belongs to the next faces of a mesh that is in
+// contact.
 bool PlanMaker::add_rows_of(const world::World& world, int candidate) {
   const Candidate pair = courses_.candidates[at(candidate)];
   const Path &a = courses_.paths[at(pair.a)], &b = courses_.paths[at(pair.b)];
@@ -173,7 +175,7 @@ bool PlanMaker::add_rows_of(const world::World& world, int candidate) {
     if (may_meet && rows_.end_speed(row, rows_.path) < -rest_speed_) {
       const double there = pair.in_contact ? arrival(row) : pair.time;
       if (there <= pair.time)
-        meeting_ = std::min(meeting_, there);  // else something else is first: a shorter plan
+        meeting_ = std::min(meeting_, there);  // otherwise something else comes first: a shorter plan
     } else {
       rows_.rows.push_back(row);
       any = true;
@@ -182,7 +184,7 @@ bool PlanMaker::add_rows_of(const world::World& world, int candidate) {
   return any;
 }
 
-// When (s from the start) a point of a pair has come down to the rest gap, if its bodies go as on these paths.
+// When (s from the start) a point of a pair has come down to the rest gap, if its bodies follow these paths.
 double PlanMaker::arrival(const PlanRow& row) const {
   const Path &a = courses_.paths[at(row.contact.body_a)], &b = courses_.paths[at(row.contact.body_b)];
   double early = 0, late = courses_.length();
@@ -195,7 +197,8 @@ double PlanMaker::arrival(const PlanRow& row) const {
   return late;
 }
 
-// For the next plan's guess; and which contacts last: where something pushes, all points that stay in contact.
+// Stores guesses for the next plan, and which contacts last: all points that stay in contact, if one of the pair's
+// points pushes.
 void PlanMaker::remember() const {
   std::vector<char> pushes(courses_.candidates.size(), 0);
   for (const PlanRow& row : rows_.rows) pushes[at(row.pair)] |= row.push() > 0 && !row.arrives;
@@ -207,7 +210,7 @@ void PlanMaker::remember() const {
     }
 }
 
-// The bodies that go by the plan: those that are pushed, or end in contact.
+// The bodies that follow the plan: those that are pushed, or end in contact.
 Planned PlanMaker::take() {
   const double length = courses_.length();
   remember();

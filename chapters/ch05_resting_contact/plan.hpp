@@ -1,4 +1,4 @@
-// Makes plans: how the bodies of an island go on together for a while, as contacts that last let them.
+// Makes plans: how the bodies of an island go on together for some time, with the contacts that last.
 #pragma once
 
 #include <memory>
@@ -10,12 +10,12 @@ namespace fc::resting {
 
 // A plan is halved where its paths are not clear, down to this part of a frame.
 constexpr double kShortest = 1.0 / 4096;
-// A plan that would leave less than this part of what is left of the frame takes it all.
+// A plan that would leave less than this share of the rest of the frame takes all of it.
 constexpr double kNearlyAll = 0.75;
 
-// Pushes and corrects (see PlanRows), and proves the paths, which are straight, with constant spin. What a path
-// that is not clear meets becomes a row, or ends the plan; else a shorter plan is made. This is RATTLE's first half (Andersen
-// 1983) with inequalities; the second half, which lets velocities end with no contact closing, is the next instant's impact law.
+// Pushes and corrects (see PlanRows), and proves the paths, which are straight, with constant spin. What an unproved
+// path meets becomes a row, or ends the plan; else a shorter plan is made. This is the first half of RATTLE (Andersen
+// 1983), with inequalities. The second half, after which no contact closes, is the impact law at the next instant.
 class PlanMaker {
  public:
   PlanMaker(Contacts& contacts, ContactLaw& law, std::size_t bodies)
@@ -26,14 +26,14 @@ class PlanMaker {
         changes_(bodies, 0) {}
 
   void next_frame() { std::fill(changes_.begin(), changes_.end(), 0); }
-  // A plan for the bodies of the island that are in contact, from `now` on (s in a frame of dt seconds), as long as their paths
-  // can be proved, at most to the frame's end; none if there is none. The forces that it finds are guesses for the next plan.
-  // Its solutions are added to the report. Throws if the scene's solver fails.
+  // A plan for the bodies of the island that are in contact, from `now` on (s in a frame of dt seconds), for as long as
+  // their paths can be proved, at most to the frame's end; null if there is none. The forces found are guesses for the
+  // next plan. Its solutions are added to the report. Throws if the scene's solver fails.
   std::shared_ptr<const Planned> make(const world::World& world, const Island& island, double now, double dt,
                                       const IslandOptions& options, world::StepReport& report);
   // Of the last make():
   double length() const { return courses_.length(); }  // s
-  int checked() const { return checked_; }             // paths that were to be proved
+  int checked() const { return checked_; }             // paths that it tried to prove
 
  private:
   PlanResult try_length(const world::World& world, const Island& island, double now, double length,
@@ -48,10 +48,10 @@ class PlanMaker {
   Courses courses_;
   PlanRows rows_;
   IslandOptions options_;
-  double rest_speed_ = 0;  // m/s: what comes in faster ends the plan when it is there
-  double meeting_ = 0;     // s: when the first two that bounce are there, or impulses have to change
+  double rest_speed_ = 0;  // m/s: a faster approach ends the plan when the contact is reached
+  double meeting_ = 0;     // s: when the first two bodies that bounce meet, or impulses have to change
   int checked_ = 0;
-  std::vector<double> lengths_;  // s, of each body's next plan at most
+  std::vector<double> lengths_;  // s, the most for each body's next plan
   std::vector<int> changes_;  // of its plans in this frame: those that ended because impulses had to change
 };
 

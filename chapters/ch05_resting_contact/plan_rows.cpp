@@ -9,14 +9,15 @@
 namespace fc::resting {
 namespace {
 
-// The share of what a gap lacks of the rest gap that a plan makes up; and the part of the margin that it reaches at once.
+// The share of a gap's lack (to the rest gap) that a plan makes up; and the part of the margin that it reaches at once.
 constexpr double kCorrect = 0.2, kLeastGap = 0.25;
-constexpr double kNearRest = 0.99999;  // of the rest gap: nothing is put right from here on
+constexpr double kNearRest = 0.99999;  // of the rest gap: from here on nothing is corrected
 
-constexpr int kMostRounds = 8;          // in which the paths' ends are looked at again
-constexpr double kNearlyClosed = 1e-2;  // else a shorter plan is made
+constexpr int kMostRounds = 8;          // of measuring the paths' ends
+constexpr double kNearlyClosed = 1e-2;  // of the margin: with a larger error a shorter plan is made
 constexpr double kClosed = 1e-6;        // of the margin: how exactly contacts close at the plan's end
-constexpr double kCloseEnough = 1e-4;   // the same, where slips bend, after the patient rounds
+constexpr double kCloseEnough =
+    1e-4;  // the same, where slips change along the path, after the patient rounds
 constexpr int kPatientRounds = 4;
 
 }  // namespace
@@ -53,9 +54,10 @@ PlanRow PlanRows::row_of(const world::World& world, int candidate, const Contact
 }
 
 PlanResult PlanRows::close() {
-  const auto is_put_out = [&](const PlanRow& row) {  // of contact, by corrections, although it pushes
-    return row.push() > 0 && !row.arrives && row.end_gap > margin_;
-  };
+  const auto is_put_out =
+      [&](const PlanRow& row) {  // by corrections: it leaves the contact although it pushes
+        return row.push() > 0 && !row.arrives && row.end_gap > margin_;
+      };
   const PlanResult ends = close_ends();
   if (!corrects_ || std::none_of(rows.begin(), rows.end(), is_put_out)) return ends;
   corrects_ = false;
@@ -92,13 +94,13 @@ double PlanRows::measure(PlanRow& row) const {
 }
 // ANCHOR_END: close_ends
 
-// Steps 1 and 2, with the rows' right-hand sides as they are.
+// Steps 1 and 2, with the rows' current right-hand sides.
 bool PlanRows::solve() {
   fast = courses_.with(courses_.drift);
   gather(true);
   if (!push(fast)) return false;
   for (std::size_t r = 0; r < rows.size(); ++r) rows[r].impulse = impulses_[r];
-  if (!correct()) {  // nothing to put right, or no room for all of it: gaps stay as they are
+  if (!correct()) {  // nothing to correct, or no room for all of it: gaps stay as they are
     path = fast;
     std::fill(corrections_.begin(), corrections_.end(), 0.0);
   }
@@ -122,7 +124,7 @@ bool PlanRows::correct() {
          counts(law_.correct({path, numbers_, contacts_, bends_}, approach_limits_, corrections_, options_));
 }
 
-// The law is to be asked about all rows, or about those of contacts that last.
+// Gathers the rows for the law: all of them, or those of contacts that last.
 void PlanRows::gather(bool arrivals) {
   gathered_.clear();
   contacts_.clear();
@@ -142,7 +144,7 @@ void PlanRows::gather(bool arrivals) {
   for (const Member& member : courses_.members) numbers_.push_back(member.number);
 }
 
-// What was gathered; bodies get the velocities.
+// Solves the gathered rows; the bodies get the velocities.
 bool PlanRows::push(std::vector<RigidBody>& bodies) {
   return contacts_.empty() ||
          counts(law_.push({bodies, numbers_, contacts_, bends_}, approach_limits_, impulses_, options_));
@@ -169,7 +171,7 @@ double PlanRows::end_speed(const PlanRow& row, const std::vector<RigidBody>& bod
       .dot(b.velocity + b.spin.cross(arm_b) - a.velocity - a.spin.cross(arm_a));
 }
 
-// How much larger the contact's slip is in the middle of the paths, where its bodies stand and its point is then.
+// How much larger the contact's slip is in the middle of the paths, with the poses and the point there.
 Vec3 PlanRows::slip_bend(const PlanRow& row) const {
   const Path &path_a = courses_.paths[at(row.contact.body_a)],
              &path_b = courses_.paths[at(row.contact.body_b)];
@@ -177,7 +179,7 @@ Vec3 PlanRows::slip_bend(const PlanRow& row) const {
   const Pose a = path_a.motion.pose_at(half), b = path_b.motion.pose_at(half);
   const RigidBody &of_a = fast[at(row.contact.body_a)], &of_b = fast[at(row.contact.body_b)];
   const Vec3 half_gap = 0.5 * row.point.gap_at(a, b) * row.point.normal_at(a, b);
-  // The plane's own point stays behind where the other body's goes on.
+  // The plane's own point stays behind while the other body's moves on.
   const Vec3 point =
       row.point.of_b ? Vec3(row.point.on_a(a, b) + half_gap) : Vec3(row.point.on_b(a, b) - half_gap);
   Vec3 slip = of_b.velocity - of_a.velocity;

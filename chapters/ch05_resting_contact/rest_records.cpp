@@ -48,8 +48,8 @@ void RestRecords::add(Instant& instant, const RunningPlan& plan, double dt) {
   instant.report.kinematic_work += whole ? plan.what->kinematic_work : share * plan.what->early_work;
 }
 
-// `key` names the point among those of its two bodies. Added to what is known of it, if its normal has not changed.
-// ends_plan: it is what the instant at a plan's end did, the other half of what the plan did.
+// `key` names the point among those of its two bodies. The record is added to what is known of the point, if its normal
+// has not changed. ends_plan: the instant at a plan's end did it, as the other half of what the plan did.
 void RestRecords::add(const world::ImpactRecord& record, std::uint64_t key, bool ends_plan) {
   constexpr double kSameNormal = 1e-14;
   const auto a = static_cast<std::uint64_t>(record.contact.body_a),

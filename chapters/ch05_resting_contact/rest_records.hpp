@@ -1,4 +1,5 @@
-// What instants and plans did, reported; contacts that last once in a frame, with both halves of what acts at them.
+// What instants and plans did, as records; contacts that last get one record a frame, with both halves of their
+// impulse.
 #pragma once
 
 #include <unordered_map>
@@ -12,25 +13,27 @@ namespace fc::resting {
 // s: what happens at the end of a frame of dt seconds is reported a little before it, as it belongs to this frame.
 double reported_time(double now, double dt);
 
-// An instant, and what is to be reported of it.
+// An instant, and what it has to report.
 struct Instant {
   world::World& world;
   double now;  // s in the frame
   world::StepReport& report;
   const world::Listeners& listeners;
-  std::vector<int> bodies = {};   // whose plans end; the list grows
-  std::vector<int> changed = {};  // that have got another motion
-  double planned = 0;             // s, how long the plans have lasted that end here
-  double gained = 0;  // J, by all of them since they got their last, beyond what kinematic bodies did
+  std::vector<int> bodies = {};   // bodies whose plans end; the list grows
+  std::vector<int> changed = {};  // bodies with a new motion
+  double planned = 0;             // s, how long the plans that end here have lasted
+  double gained =
+      0;  // J, gained by all of them since their last motion began, beyond the work of kinematic bodies
 };
 
 class RestRecords {
  public:
   void add(Instant& instant, const InstantResult& result);
-  // What the plan did until now, when it ends, in a frame of dt seconds.
+  // What the plan did until now, where it ends, in a frame of dt seconds.
   void add(Instant& instant, const RunningPlan& plan, double dt);
   void report(const world::OnImpact& listener) const;
-  // J, what impulses along the surfaces did; those of contacts that last over a plan's path, along which both halves act.
+  // J, the work of impulses along the surfaces; for contacts that last, over the path of the plan, along which both
+  // halves act.
   double tangential_work() const { return impact_work_ + work_; }
 
  private:
@@ -38,7 +41,7 @@ class RestRecords {
     world::ImpactRecord record;
     Vec3 slip;  // m/s, of the last plan
     std::uint64_t key;
-    int next;  // of the same two bodies, or -1
+    int next;  // the next of the same two bodies, or -1
   };
   void add(const world::ImpactRecord& record, std::uint64_t key, bool ends_plan);
 

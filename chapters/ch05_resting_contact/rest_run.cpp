@@ -7,7 +7,7 @@
 namespace fc::resting {
 namespace {
 
-constexpr double kWide = 10;  // g dt^2: from here on an envelope is called wide
+constexpr double kWide = 10;  // times g dt^2: a wider envelope is called wide
 
 }  // namespace
 
@@ -27,13 +27,14 @@ std::vector<Effect> explain(const Scene& scene) {
     list.push_back(
         {"wide envelope", why,
          fmt::format(
-             "{:.3g} times what gravity and a frame's length ask for (g dt^2): little bounces; narrow it, "
-             "or take longer frames",
+             "{:.3g} times what gravity and the frame's length need (g dt^2): few impacts bounce; narrow it, "
+             "or use longer frames",
              margin / fall),
          0});
-  list.push_back({"plans", why,
-                  "an island goes on together: an LCP of gaps at the plan's end, another puts gaps right",
-                  2});
+  list.push_back(
+      {"plans", why,
+       "the bodies of an island go on together: one LCP for the gaps at the plan's end, another corrects gaps",
+       2});
   list.push_back(
       {"impact law", why,
        fmt::format("at each instant: compression, and expansion if something comes in faster than {:.3g} m/s "
@@ -50,7 +51,7 @@ void report_clash(const Scene& scene, const Clash& clash, double frame) {
   const auto where = [&](int body) { return scene.bodies[static_cast<std::size_t>(body)].where.text(); };
   fmt::print(
       stderr,
-      "{}: this driven body goes into the one of {}, which does not give way either, at {:.6g} s; nothing "
+      "{}: this kinematic body runs into the one of {}, which cannot give way either, at {:.6g} s; nothing "
       "stops it\n",
       where(clash.kinematic), where(clash.other), frame + clash.time);
 }
@@ -103,7 +104,7 @@ int run_scene(const Scene& scene, const RunContext& context, Summary& summary, c
   summary.add("energy added by corrections", all.correction_energy, "J");
   summary.add("bodies whose paths were shortened", std::int64_t{all.shortened});
   summary.add("momentum that shortened paths took", all.lost_impulse, "N s");
-  if (clashes > 0) summary.add("driven bodies that went into what cannot give way", std::int64_t{clashes});
+  if (clashes > 0) summary.add("kinematic bodies that ran into what cannot give way", std::int64_t{clashes});
   summary.counter("plans", all.plans, 0);
   summary.counter("paths of pairs that were proved", all.checked, 0);
   summary.counter("envelope (pairs whose contacts were searched)", all.searched, 0);

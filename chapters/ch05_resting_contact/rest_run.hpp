@@ -8,18 +8,18 @@ namespace fc::resting {
 
 // What a later chapter changes.
 struct RunOptions {
-  // Its contact law for a world; none: that of this chapter.
+  // Its contact law for a world; empty: this chapter's.
   std::function<std::unique_ptr<ContactLaw>(world::World&)> law = {};
-  // What it adds to the tables; `last` is the report of the frame that was stepped last.
+  // The columns that it adds to the tables; `last` is the report of the last frame.
   std::function<world::MoreColumns(const RestReport& last)> columns = {};
 };
 
-// Effects, for --explain: chapter 4's, and those of the envelope.
+// The effects for --explain: chapter 4's, and those of the envelope.
 std::vector<Effect> explain(const Scene& scene);
 // As world::run_scene(). The scene has an envelope.
 int run_scene(const Scene& scene, const RunContext& context, Summary& summary,
               const RunOptions& options = {});
-// Throws as these would at their start.
+// Throws what these would throw at their start.
 void check(const Scene& scene);
 
 }  // namespace fc::resting

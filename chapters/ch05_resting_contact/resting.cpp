@@ -10,21 +10,22 @@
 namespace fc::resting {
 namespace {
 
-// A body that has met others so often within one frame does not bounce any more until its end: the time between bounces
-// may shrink without end (compare the TC model, Luding and McNamara 1998).
+// A body that has met others this often within one frame does not bounce any more until its end: the time between
+// bounces may shrink without end (compare the TC model, Luding and McNamara 1998).
 constexpr int kMostBounces = 64;
 
-// Plans of piles with few rows are halved where paths would have to be shortened, down to this part of a frame.
+// Plans of piles with few rows are halved where paths would have to be shortened, down to this share of a frame.
 constexpr int kManyRows = 100;
 constexpr double kShortestOfPile = 1.0 / 512;
 
 // A pile is slow if its bodies go no farther in a frame than this, in margins.
 constexpr double kSlow = 4;
 
-// A pile's plan for the whole frame may shorten the paths of this part of its bodies.
+// A pile's plan for the whole frame may shorten the paths of this share of its bodies.
 constexpr double kFew = 1.0 / 64;
 
-// A pile of this size is kept without a search. Each time this number of frames has passed, all piles are searched anew.
+// A pile of this size is kept without a search. Every time this number of frames has passed, all piles are searched
+// again.
 constexpr std::size_t kLarge = 100;
 constexpr int kLookAgain = 8;
 
@@ -33,7 +34,7 @@ double energy_of(const world::World& world, const RigidBody& state) {  // J
          (world.effects.gravity ? state.mass * world.effects.gravity->dot(state.position) : 0.0);
 }
 
-// It stands still until the frame's end.
+// The body stands still until the frame's end.
 void stop(world::World& world, int kinematic, double now, double dt, world::StepReport& report) {
   world.advance_to(kinematic, now, now);
   world.bodies[static_cast<std::size_t>(kinematic)].frozen = true;
@@ -126,7 +127,7 @@ std::vector<int> Resting::meet(world::World& world, int a, int b, double now, wo
   return go_on(std::move(instant));
 }
 
-// These bodies, and all that they are in contact with, directly or over others.
+// These bodies, and all that they are in contact with, directly or through others, go on.
 std::vector<int> Resting::go_on(Instant instant) {
   islands_.begin(instant.now);
   piles_.begin_instant();
@@ -150,7 +151,7 @@ std::vector<int> Resting::go_on(Instant instant) {
   return std::move(instant.changed);
 }
 
-// Whether a pile has got into the island, or going on from event to event would take too long.
+// Whether the island contains bodies of a pile, or stepping it from event to event would take too much work.
 bool Resting::is_pile(const Instant& instant, const Island& island) {
   const auto cannot_go = [&](const Member& member) {
     return member.dynamic &&
@@ -162,7 +163,7 @@ bool Resting::is_pile(const Instant& instant, const Island& island) {
          (instant.now < dt_ && piles_.is_spent(island));
 }
 
-// Plans end, the instant's impact law acts, and new plans begin; false if the island cannot be followed so.
+// Plans end, the instant's impact law acts, and new plans begin. False if the island cannot be stepped like this.
 bool Resting::go_on(Instant& instant, Island& island) {
   const double work = instant.report.kinematic_work, before = stand(instant, island.members),
                worked = law_->work();
@@ -178,7 +179,8 @@ bool Resting::go_on(Instant& instant, Island& island) {
   return goes;
 }
 
-// All stand where they are now; the plans that moved them end. Returns the energy (J) with which they began their motions.
+// Ends the plans that move the members, at their present poses. Returns the energy (J) with which they began their
+// motions.
 double Resting::stand(Instant& instant, std::span<Member> members) {
   double energy = 0;
   for (Member& member : members) {
@@ -258,8 +260,8 @@ bool Resting::plan(Instant& instant, const Island& island) {
   return true;
 }
 
-// A pile has no impacts of its own, only plans: one in a frame while it is calm and slow, else two; and more, if it is so small
-// that shorter plans cost less than paths that are shortened.
+// A pile has no impacts of its own, only plans: one in a frame while it is calm and slow, else two; and more if it is
+// so small that shorter plans cost less than shortened paths.
 void Resting::go_on(Instant& instant, PileList::Pile& pile) {
   pile.done = true;
   std::vector<Member> members;
@@ -321,7 +323,7 @@ void Resting::go_on(Instant& instant, PileList::Pile& pile) {
         length == left ? end : instant.now + length);
 }
 
-// Whether no body moves by it.
+// Starts a plan. Returns whether no body moves by it.
 bool Resting::start(Instant& instant, const std::shared_ptr<const Planned>& planned, double end) {
   ++report_.plans;
   report_.resting += planned->pushing;

@@ -1,4 +1,4 @@
-// Chapter 5's planner: bodies in contact go by plans; all else flies, as in chapter 4.
+// Chapter 5's planner: bodies in contact follow plans; all others fly, as in chapter 4.
 #pragma once
 
 #include <limits>
@@ -24,22 +24,22 @@ struct RestReport {
   double smallest_gap = std::numeric_limits<double>::infinity();  // m, of bodies in contact, certified
   int largest_island = 0;                                         // contact points
   int sweeps = 0;                                                 // of Gauss-Seidel, in piles
-  double correction = 0;  // m, the largest that a body's point was moved to put gaps right
-  // J, that bodies in contact gained beyond what kinematic bodies did: by corrections of positions, and by the plans' error, which
-  // is of second order
+  double correction = 0;  // m, the most that a point of a body was moved to correct gaps
+  // J, what bodies in contact gained beyond the work of kinematic bodies: by corrections of positions, and by the
+  // plans' error, which is of second order
   double correction_energy = 0;
-  double tangential_work = 0;       // J, by impulses along the surfaces
+  double tangential_work = 0;       // J, of impulses along the surfaces
   int shortened = 0;                // bodies of piles whose paths were shortened
-  double lost_impulse = 0;          // N s, the momentum that this took
+  double lost_impulse = 0;          // N s, the momentum that shortening took
   std::vector<Clash> clashes = {};  // of kinematic bodies, first reported in this frame; times in the frame
 };
 
 struct RestOptions {
   double most_work = 2e5;         // see ContactLaw::event_work(): more makes a pile
-  int most_meetings = 256;        // and so does a body that meets others more often in one frame
+  int most_meetings = 256;        // a body that meets others more often in one frame joins a pile, too
   int sweeps = 16;                // of a pile's rows,
-  int visits = 4000;              // and so many of single rows in any case;
-  int settling_visits = 150'000;  // up to so many if it nearly stands, until its residual is small
+  int visits = 4000;              // with at least this many row visits;
+  int settling_visits = 150'000;  // and at most this many, if it nearly stands, until its residual is small
   IslandOptions solver = {};
 };
 
@@ -73,7 +73,7 @@ class Resting : public world::Planner {
   bool start(Instant& instant, const std::shared_ptr<const Planned>& planned, double end);
 
   RestOptions options_;
-  double frame_, dt_;  // s, of a frame, and of the part of it at hand
+  double frame_, dt_;  // s, of a frame, and of the part of it being stepped
   Contacts contacts_;
   IslandFinder islands_;
   std::unique_ptr<ContactLaw> law_;
@@ -84,7 +84,7 @@ class Resting : public world::Planner {
   Standing standing_;
   KinematicWatch watch_;
   std::vector<int> meetings_;   // of each body, in this frame
-  std::vector<double> energy_;  // J, of each body when it got its motion, in this frame
+  std::vector<double> energy_;  // J, of each body when its motion began, in this frame
   RestReport report_;
   RestRecords records_;
 };

@@ -5,7 +5,7 @@
 namespace fc::resting {
 namespace {
 
-// Whether the island may sleep; counts for how long its bodies have been slow.
+// Whether the island may sleep. Counts for how long its bodies have been slow.
 bool rests(world::World& world, const Island& island, double dt) {
   bool lies = false, all = true;
   for (const Member& member : island.members) {

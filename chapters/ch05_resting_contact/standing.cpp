@@ -5,8 +5,8 @@
 namespace fc::resting {
 namespace {
 
-// Where impulses are so large that they cancel to no better, bodies stand still that are slower than this part of the margin in a
-// frame: paths are proved with more room.
+// Where impulses are so large that they cancel less exactly, bodies slower than this part of the margin in a frame
+// stand still: paths are proved with more room than that.
 constexpr double kMostStill = 1e-6;
 
 bool is_same(const Member& m, const Member& n) {
@@ -47,7 +47,7 @@ void Standing::begin(const world::World& world, double dt) {
   }
 }
 
-// m/s: a body in contact whose points are slower stands still.
+// m/s: a body in contact stands still if its points are slower.
 double Standing::still_speed(const world::World& world, int body) const {
   const double left = law_.left() * pushed_[at(body)] * world.bodies[at(body)].state.inverse_mass;
   return std::min(kStill * margin_ / dt_ + left, kMostStill * margin_ / dt_);

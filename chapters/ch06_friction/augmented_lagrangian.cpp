@@ -10,23 +10,26 @@
 namespace fc::friction {
 namespace {
 
-// σ over the trace of a contact's block. The first round's: so much over what is left before it, at least the second. Each round is
-// stiffer, up to the fourth, and beyond that, up to the fifth, if what is left falls to no less than the last part.
+// σ over the trace of a contact's block. In the first round: kFirst over the residual before it, at least kSoftest.
+// Each round is stiffer by kStiffer, up to kStiff; and up to kStiffest if the residual does not fall below its
+// kSlow-fold.
 constexpr double kFirst = 0.1, kSoftest = 10, kStiffer = 10, kStiff = 1e5, kStiffest = 1e8, kSlow = 0.3;
 
-// Steps of Newton's method in a round, until one gains but this part of φ, over σ²: an error in velocities is one of σ times as
-// much in impulses. Below the second part there is only round-off, if it does not fall by the factor any more.
+// Newton steps in a round. The round ends when a step gains less than kMinimal of φ, over σ²: an error in velocities is
+// one of σ times that in impulses. Below kRoundOff there is only round-off, if the gain no longer falls by the factor
+// kFalls.
 constexpr int kSteps = 20;
 constexpr double kMinimal = 1e-14, kRoundOff = 1e-15, kFalls = 0.25;
 
-// A line search: what part of the slope a step must gain, and how short it may become. Round-off of φ is no loss.
+// Line search: the share of the slope that a step must gain, and the shortest step. A loss within the round-off of φ is
+// none.
 constexpr double kArmijo = 1e-4, kShortestStep = 1e-3, kRounding = 1e-13;
 
-// Rounds without end: what is left must fall to this part within so many.
+// Rounds may go on for ever: the residual must fall to this share within kIdleRounds.
 constexpr double kProgress = 0.5;
 constexpr int kIdleRounds = 6;
 
-// Of a change of the shifts, which the next takes up with this factor: from where to where it is extrapolated.
+// Aitken's rule: the shifts are extrapolated if their change is the last change times a factor between these.
 constexpr double kSame = 0.05, kGrows = 0.95;
 
 }  // namespace
@@ -60,7 +63,7 @@ AugmentedLagrangian::AugmentedLagrangian(std::span<const MovedBody> bodies, std:
 AugmentedLagrangian::Piece AugmentedLagrangian::piece(std::size_t k, const Vec3& x) const {
   const double mu = blocks_[k].mu;
   Piece result;
-  if (!holds_.empty()) {  // normals push, tangents do what they must
+  if (!holds_.empty()) {  // normals push, tangents take whatever impulse they need
     const double push = x[0] > 0, hold = holds_[k] != 0;
     result.D.diagonal() << push, hold, hold;
     result.impulse = result.D * x;
@@ -68,12 +71,12 @@ AugmentedLagrangian::Piece AugmentedLagrangian::piece(std::size_t k, const Vec3&
   }
   const double slip = std::hypot(x[1], x[2]);
   if (mu * slip <= -x[0]) return result;  // open
-  if (mu > 0 && slip <= mu * x[0]) {      // sticks
+  if (mu > 0 && slip <= mu * x[0]) {      // stick
     result.D.setIdentity();
     result.impulse = x;
     return result;
   }
-  result.impulse = project_onto_cone(x, mu);  // slides
+  result.impulse = project_onto_cone(x, mu);  // slip
   if (slip == 0) {
     result.D(0, 0) = 1;
     return result;
@@ -85,7 +88,7 @@ AugmentedLagrangian::Piece AugmentedLagrangian::piece(std::size_t k, const Vec3&
   return result;
 }
 
-// u(y), m/s; tangents that are held: what they have moved.
+// u(y), m/s. For tangents that are held: what they have moved.
 Vec3 AugmentedLagrangian::velocity(std::size_t k, const VecX& y) const {
   Vec3 u = blocks_[k].start;
   if (!holds_.empty()) u.tail<2>().setZero();
@@ -121,7 +124,7 @@ VecX AugmentedLagrangian::linearise(const VecX& y) {
   };
   VecX gradient = y;
   Mat6 of_a = Mat6::Zero(), of_b = Mat6::Zero(),
-       between = Mat6::Zero();  // of a pair, whose contacts follow each other
+       between = Mat6::Zero();  // the block of a pair, whose contacts follow each other
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
     const Piece p = piece(k, argument(k, y));
     add_impulse(k, -p.impulse, gradient);
@@ -134,7 +137,7 @@ VecX AugmentedLagrangian::linearise(const VecX& y) {
     else
       between.noalias() += b_[k].transpose() * stiff_a;
     if (k + 1 < blocks_.size() && place_a_[k + 1] == a && place_b_[k + 1] == b) continue;
-    // What is zero counts, too: the matrix has the same places each time, and is ordered once.
+    // Zeros are entered, too: so the matrix has the same pattern each time, and is ordered only once.
     if (a >= 0) add(a, a, of_a);
     if (b >= 0) add(b, b, of_b);
     if (a >= 0 && b >= 0) add(std::max(a, b), std::min(a, b), between);
@@ -169,7 +172,7 @@ void AugmentedLagrangian::minimise(VecX& y) {
 }
 // ANCHOR_END: minimise
 
-// s from the velocities; every second time extrapolated, if it follows its last change by the same factor.
+// Sets s from the velocities; every second time it is extrapolated, if it changes by a steady factor.
 void AugmentedLagrangian::shift(const VecX& y, int round) {
   if (!holds_.empty()) return;
   double product = 0, size = 0;
@@ -187,7 +190,7 @@ void AugmentedLagrangian::shift(const VecX& y, int round) {
   }
 }
 
-// What the guesses do.
+// Applies the guesses; returns y.
 VecX AugmentedLagrangian::start_round() {
   VecX y = VecX::Zero(6 * size_);
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
@@ -198,7 +201,7 @@ VecX AugmentedLagrangian::start_round() {
   return y;
 }
 
-// Stiffer, as long as that helps; false: it did not, for round-off.
+// Makes the contacts stiffer, as long as that helps. False: they were already too stiff for round-off.
 bool AugmentedLagrangian::adapt(double now, double before) {
   if (now > before && stiff_ >= kStiff) {
     stiffest_ = stiff_ / kStiffer;

@@ -1,5 +1,5 @@
-// All contacts of an island at once, by a matrix of its bodies: for what stands, where one contact after the other takes
-// thousands of sweeps.
+// All contacts of an island at once, by a matrix of its bodies: for structures that stand, where solving one contact
+// after the other takes thousands of sweeps.
 //
 // If the shifts s = µ|u_T| of the law K* ∋ u + s n ⟂ r ∈ K were known, r would minimise a convex function, and v would be the
 // minimum of another: its augmented Lagrangian (Hestenes 1969, Powell 1969; Rockafellar 1976). From a guess r̄, with a stiffness σ
@@ -7,11 +7,11 @@
 //
 //     φ(y) = ½ |y|² + Σ |P_K(r̄ - σ (u(y) + s n))|² / 2σ,    u(y) = u_0 + G y,   G = J L,   M⁻¹ = L L',
 //
-// where y is what impulses change of the bodies' velocities, scaled by their masses. At the minimum y = G'r with r = P_K(...):
-// these r are the next r̄. σ need not be infinite: what is left of the law shrinks by 1/(1 + σλ) each time, λ an eigenvalue of
-// J M⁻¹ J'. And since I + G' σ D G is positive definite, however many contacts are redundant, nobody has to find out which.
-// The minimum is Newton's method's, with a line search; P_K has derivatives (D) where the state does not change.
-// s is that of the last u, as in Cadoux's fixed point (2009), made faster by Aitken's rule.
+// where y is the change that impulses make to the bodies' velocities, scaled by their masses. At the minimum y = G'r
+// with r = P_K(...): these r are the next r̄. σ need not be infinite: the error shrinks by 1/(1 + σλ) each time, λ an
+// eigenvalue of J M⁻¹ J'. And since I + G' σ D G is positive definite, redundant contacts do no harm and need not be
+// found. Newton's method with a line search finds the minimum; P_K has derivatives (D) where the contact's state does
+// not change. s is that of the last u, as in Cadoux's fixed point (2009), accelerated by Aitken's rule.
 #pragma once
 
 #include <functional>
@@ -25,17 +25,17 @@ namespace fc::friction {
 
 class AugmentedLagrangian {
  public:
-  // Starts from the blocks' r, and changes these alone. Both must outlive it.
+  // Starts from the blocks' r, and changes these alone. Bodies and blocks must outlive it.
   AugmentedLagrangian(std::span<const MovedBody> bodies, std::span<ContactBlock> blocks);
 
-  // What is wanted of each contact: Coulomb's law; or
-  // normal impulses as without friction, and tangents that do not move: of contacts with holds[i].
+  // What contacts obey: Coulomb's law; or, after hold(), normal impulses as without friction, and, for contacts with
+  // holds[i], tangents that do not move.
   void hold(std::span<const char> holds) { holds_ = holds; }
 
-  // At most so many rounds. left: what the blocks' r leave of the law, from 0 on; rounds go on until that is `enough`, or does not
-  // get less any more. The blocks have the best r; returns what it leaves.
+  // Runs at most this many rounds. left: the residual that the blocks' r leave, counted from 0 on; rounds go on until
+  // it is `enough`, or falls no more. The blocks get the best r; returns the residual that it leaves.
   double run(int most, double enough, const std::function<double()>& left);
-  int steps() const { return steps_; }  // of Newton's method, so far: each with a factorisation
+  int steps() const { return steps_; }  // of Newton's method, so far: each with one factorisation
 
  private:
   using Mat36 = Eigen::Matrix<double, 3, 6>;
@@ -57,7 +57,7 @@ class AugmentedLagrangian {
 
   std::span<ContactBlock> blocks_;
   std::span<const char> holds_;
-  std::vector<int> place_a_, place_b_;  // of each block's bodies among those that move, or -1
+  std::vector<int> place_a_, place_b_;  // the place of each block's bodies among those that move, or -1
   std::vector<Mat36> a_, b_;            // G's parts
   std::vector<Vec3> guess_;             // r̄
   std::vector<double> stiffness_, shift_, shift_change_;

@@ -14,11 +14,11 @@ namespace {
 constexpr int kBoxRounds = 50;
 constexpr double kSettled = 1e-12;
 
-// One LCP over the normals, and over those tangents that have a bound > 0 and something to do.
+// One LCP over the normals, and over the tangents that have a bound > 0 and can move something.
 class Boxes {
  public:
   explicit Boxes(const ConeProblem& problem) : problem_(problem) {}
-  // radius: n, N s. Sets r, 3n, from a solved LCP. Returns its status.
+  // radius: n, N s. Sets r, 3n, from a solved LCP. Returns the LCP's status.
   Status solve(const VecX& radius, VecX& r);
   int pivots() const { return pivots_; }
 
@@ -90,7 +90,7 @@ ConeResult solve_boxed(const ConeProblem& problem, const SolveOptions& options) 
       settled = settled && change <= kSettled * problem.b.lpNorm<Eigen::Infinity>();
     }
   }
-  // The bounds were those of the round before; these normals' own differ from them in the last digits.
+  // The bounds came from the round before; those of these normals differ in the last digits.
   for (Eigen::Index row = 0; row < r.size(); ++row) {
     const double bound = problem.mu[row / 3] * r[row - row % 3];
     if (row % 3 != 0) r[row] = std::clamp(r[row], -bound, bound);

@@ -11,16 +11,16 @@ namespace fc::friction {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-// Relative to its largest entry: beyond it, A's two triangles are two different problems.
+// Relative to A's largest entry: with more asymmetry, A's two triangles are two different problems.
 constexpr double kAsymmetry = 1e-10;
-// A contact is strictly inside its cone if it lacks this share of µ r_N. Velocities below the other share of max|b|,
-// and friction that changes velocities by less, have no direction that would not be round-off.
+// A contact is strictly inside its cone if it lacks this share of µ r_N. Velocities below the second share of max|b|,
+// and friction that changes velocities by less, have no direction but that of round-off.
 constexpr double kInside = 1e-6;
 constexpr double kSlides = 1e-6;
 
-// What residual() and acceptable() are made of; a NaN stays.
+// The parts of residual() and acceptable(); a NaN remains one.
 struct Measures {
-  double violation = 0;  // m/s, the largest of a contact
+  double violation = 0;  // m/s, the largest of any contact
   double b_size = 0;     // m/s, max|b|
   double ar_size = 0;    // m/s, max (|A||r|)
 };
@@ -143,7 +143,7 @@ bool acceptable(const ConeProblem& problem, const VecX& r, const VecX& u) {
   for (Eigen::Index i = 0; i < u.size(); ++i) {
     if (!(std::abs(u[i] - again[i]) <= rounding + 8 * kEpsilon * std::abs(problem.b[i]))) return false;
   }
-  // Written so that an overflow, which makes a measure infinite, gives "no".
+  // Written so that an overflow, which makes a measure infinite, gives false.
   return rounding <= 1e-3 * m.b_size && m.violation <= 1e-6 * m.b_size + (1 + largest_mu(problem)) * rounding;
 }
 

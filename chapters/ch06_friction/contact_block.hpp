@@ -1,4 +1,4 @@
-// A contact with friction between two bodies, as solvers see it that never form the matrix J M⁻¹ J' of an island.
+// A contact with friction between two bodies, for solvers that never form an island's matrix J M⁻¹ J'.
 #pragma once
 
 #include <span>
@@ -12,14 +12,15 @@ inline std::size_t index(int i) {
   return static_cast<std::size_t>(i);
 }
 
-// The columns: a contact's normal (unit) and two tangents. Nothing depends on which: each contact is solved exactly.
+// The columns: a contact's normal (unit) and two tangents. The choice of tangents changes nothing: each contact is
+// solved exactly.
 Mat3 contact_frame(const Vec3& normal);
 
 struct MovedBody {
   Vec3 place;                     // m
   Vec3 velocity, spin;            // m/s and rad/s, with all impulses
-  Vec3 free_velocity, free_spin;  // without them
-  Vec3 move;                      // 1/kg along each axis that is free
+  Vec3 free_velocity, free_spin;  // without impulses
+  Vec3 move;                      // 1/kg along each free axis
   Mat3 turn;                      // 1/(kg m^2)
 
   bool moves() const { return !move.isZero(0) || !turn.isZero(0); }
@@ -28,7 +29,7 @@ struct MovedBody {
 struct ContactBlock {
   int a, b;
   Mat3 frame;         // columns: normal, two tangents
-  Vec3 arm_a, arm_b;  // m; zero on a body that is not turned
+  Vec3 arm_a, arm_b;  // m; zero for a body that cannot turn
   Mat3 delassus;      // 1/kg, in the frame
   OneContact one;
   double mu;
@@ -38,9 +39,9 @@ struct ContactBlock {
   Vec3 r = Vec3::Zero();        // N s, in the frame
   Vec3 start = Vec3::Zero();    // m/s, u without impulses
 
-  // In the frame, with the bodies' velocities as they are; without the offset. m/s.
+  // The relative velocity in the frame, m/s, from the bodies' present velocities; without the offset.
   Vec3 relative_velocity(std::span<const MovedBody> bodies) const;
-  // Lets an impulse (N s, in the frame) act on them.
+  // Applies an impulse (N s, in the frame) to both bodies.
   void push(std::span<MovedBody> bodies, const Vec3& impulse) const;
 };
 

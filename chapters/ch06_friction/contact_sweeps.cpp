@@ -10,7 +10,7 @@
 namespace fc::friction {
 namespace {
 
-// After so many sweeps without progress impulses go but a part of their way; not less than the second.
+// After this many sweeps without progress, impulses go only a share of their way; not less than kLeastShare.
 constexpr int kPatience = 50;
 constexpr double kClearly = 0.9, kLeastShare = 1.0 / 16;
 
@@ -27,7 +27,8 @@ Eigen::Matrix2d inverse_where_it_moves(const Eigen::Matrix2d& D) {
   return eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
 }
 
-// Friction against d with the blocks' D, of at most `radius`: r_T = -(D + x I)^-1 d, x >= 0 the least with |r_T| <= radius.
+// Friction against d with the block's D, of at most `radius`: r_T = -(D + x I)^-1 d, with the least x >= 0 for which
+// |r_T| <= radius.
 Eigen::Vector2d disc_friction(const Eigen::Matrix2d& D, const Eigen::Vector2d& d, double radius) {
   constexpr int kMost = 60;
   if (!(radius > 0)) return Eigen::Vector2d::Zero();
@@ -84,7 +85,7 @@ void ContactSweeps::add(const lcp::Contact& contact, double mu, const Vec3& offs
   blocks_.push_back(block);
 }
 
-// Bodies move as they would without impulses, and with those of all contacts.
+// Gives the bodies their velocities without impulses, and adds the impulses of all contacts.
 void ContactSweeps::apply_impulses() {
   for (MovedBody& body : bodies_) {
     body.velocity = body.free_velocity;
@@ -94,7 +95,7 @@ void ContactSweeps::apply_impulses() {
     if (!block.r.isZero(0)) block.push(bodies_, block.r);
 }
 
-// All contacts once; the largest change of an impulse, as a velocity (m/s).
+// Visits all contacts once. Returns the largest change of an impulse, as a velocity (m/s).
 // ANCHOR: sweep
 template <class Solve>
 double ContactSweeps::sweep(bool backwards, double relaxation, const Solve& solve) {
@@ -103,7 +104,7 @@ double ContactSweeps::sweep(bool backwards, double relaxation, const Solve& solv
   for (int k = 0; k < contacts(); ++k) {
     const int i = backwards ? contacts() - 1 - k : k;
     ContactBlock& block = blocks_[index(i)];
-    const Vec3 q = velocity(block) - block.delassus * block.r;  // if it did nothing
+    const Vec3 q = velocity(block) - block.delassus * block.r;  // the velocity without this contact's impulse
     const Vec3 change = relaxation * (solve(i, block, q) - block.r);
     if (change.isZero(0)) continue;
     block.push(bodies_, change);
@@ -148,7 +149,7 @@ double ContactSweeps::run_held(std::span<const char> holds, int most, double tol
   run(most, tolerance, [&](int i, const ContactBlock& block, const Vec3& q) -> Vec3 {
     const double a = block.delassus(0, 0);
     if (!holds[index(i)]) return {a > 0 ? std::max(0.0, -q[0] / a) : 0.0, 0, 0};
-    // The tangents' velocity is that at the start, whatever the normal impulse.
+    // The tangents' velocity is that at the start, whatever the normal impulse is.
     const Eigen::Vector2d c = block.delassus.block<2, 1>(1, 0);
     const Eigen::Vector2d still = q.tail<2>() - block.start.tail<2>();
     const double effective = a - c.dot(block.inverse * c), speed = q[0] - c.dot(block.inverse * still);

@@ -1,5 +1,5 @@
-// Contacts with friction between bodies, solved one contact at a time: the same method as gauss_seidel.hpp, but it sees bodies
-// and not a matrix, so that a sweep costs as much as there are contacts.
+// Contacts with friction between bodies, solved one contact at a time: the method of gauss_seidel.hpp, on bodies
+// instead of a matrix, so that the cost of a sweep is proportional to the number of contacts.
 #pragma once
 
 #include <functional>
@@ -11,33 +11,35 @@
 
 namespace fc::friction {
 
-// Three lines a contact, one where there is no friction. Velocities of bodies are those with all impulses.
+// Three lines for each contact, one where there is no friction. The bodies' velocities include all impulses.
 class ContactSweeps {
  public:
-  // Bodies as they are without impulses (their velocities: without a correction, u = J v + offset).
-  // least: m/s, the largest velocity in the problem counts as no less.
+  // Begins with the bodies as they are without impulses (with their velocities, and without a correction, u = J v +
+  // offset). least: m/s, a lower limit for the largest velocity in the problem.
   void start(std::span<const RigidBody> bodies, double least = 0);
-  // Adds a contact: mu >= 0; offset: m/s, world, what is added to its velocity: along the normal with how much it may close in.
-  // impulse: N s, world, on B, a guess.
+  // Adds a contact. mu: >= 0. offset: m/s, world, is added to its velocity; along the normal it is the speed at which
+  // the contact may close in. impulse: N s, world, on B, a guess.
   void add(const lcp::Contact& contact, double mu, const Vec3& offset, const Vec3& impulse);
   int contacts() const { return static_cast<int>(blocks_.size()); }
 
-  // Coulomb's law for all. Sweeps until no impulse changes by more than `tolerance` (of the largest velocity in the problem),
-  // at most so many. Where sweeps go in circles they are relaxed. The residual that was reached, see residual().
+  // Coulomb's law for all contacts. Sweeps until no impulse changes by more than `tolerance` (of the largest velocity
+  // in the problem), at most `most` times. Sweeps that go in circles are relaxed. Returns the residual that was
+  // reached, see residual().
   double run(int most, double tolerance);
-  // Normal impulses as without friction; contacts with holds[i] do not move along their tangents. The worst of what is left of both,
-  // over the largest velocity without impulses or due to them.
+  // Normal impulses as without friction, and contacts with holds[i] do not move along their tangents. Returns the worst
+  // violation of both, over the largest velocity without impulses or due to them.
   double run_held(std::span<const char> holds, int most, double tolerance);
-  // Both by the matrix of the bodies, see augmented_lagrangian.hpp, from what was reached: at most so many rounds, down to a residual.
+  // Continue either of these by the matrix of the bodies, see augmented_lagrangian.hpp: at most `most` rounds, down to
+  // a residual.
   double run_together(int most, double enough);
   double run_held_together(std::span<const char> holds, int most, double enough);
-  // Normal impulses as given (N s); friction is of at most mu times these.
+  // Normal impulses are given (N s); friction is at most mu times these.
   void run_discs(std::span<const double> normals, int most, double tolerance);
 
   // The worst violation of Coulomb's law at a contact (cone_violation), over the largest velocity without impulses or due to them.
   double residual() const;
 
-  // Contacts that were looked at since the last query; a step of Newton's method takes as long as many looks at each.
+  // Contact visits since the last call; a step of Newton's method takes as long as many visits to each contact.
   double take_work() { return std::exchange(work_, 0.0); }
 
   Vec3 impulse(int contact) const {

@@ -11,46 +11,48 @@ namespace {
 
 using resting::at;
 
-// Sweeps until impulses change by less than this, of the largest velocity.
+// Sweeps go on until impulses change by less than this share of the largest velocity.
 constexpr double kTolerance = 1e-14;
 
-// Sweeps, then all contacts at once, in turns: with what residual each is content, of few contacts (the first number below) and
-// of more. All at once try for kWanted.
+// Sweeps and solves of all contacts at once, by turns: the residual with which each turn is content, for few contacts
+// (the first number) and for more. Solves of all at once aim at kWanted.
 struct Turn {
   int sweeps;
   double enough_of_few, enough;
   bool again = true;
 };
 constexpr Turn kTurns[] = {{40, 1e-12, 1e-10, false}, {100, 1e-10, 1e-9}, {400, 1e-8, 1e-8}};
-constexpr double kWanted = 1e-12, kMore = 10;  // and times so much of very many
+constexpr double kWanted = 1e-12, kMore = 10;  // and kMore times that for very many contacts
 constexpr int kRounds = 20;
-// A guess that leaves less needs no sweeps.
+// A guess with a smaller residual needs no sweeps.
 constexpr double kNear = 1e-5;
-// Of the speed that counts as standing still, how much may be left.
+// The residual may be this share of the speed that counts as standing still.
 constexpr double kOfStill = 0.1;
 
-// So many contacts get Newton's method on their impulses, so many all methods at last; and among so many plans end where a slip ends.
+// Up to kFewest contacts Newton's method runs on their impulses; up to kFew, all methods run in the end; up to
+// kFewSlips, plans end where a slip ends.
 constexpr int kFewest = 12, kFew = 32, kFewSlips = 16;
-// Above these residuals islands are not solved: of few contacts (the second number), and of more.
+// Above these residuals an island counts as not solved: with few contacts, and with more.
 constexpr double kAcceptedOfFew = 1e-6, kAccepted = 1e-4;
 
-// What a frame may take: see event_work(); and in looks at contacts, some 5 ms for each body, and much more for few bodies, which
-// are to be exact.
+// The work that a frame may take: see event_work(). Counted in visits to contacts, some 5 ms for each body, and much
+// more for few bodies, which should be exact.
 constexpr double kOfStanding = 100, kOfArrival = 30, kOfIsland = 3e6, kOfBody = 3e4;
-// A dense step for each contact, a pivot: looks.
+// In visits: a dense Newton step, for each contact; and a pivot.
 constexpr double kOfNewton = 15, kOfPivot = 3;
 
 constexpr int kManySweeps = 600, kSweepsHeld = 100;
-// Of the largest velocity, of corrections; and from so many contacts on, where each round takes long.
+// Of the largest velocity, for corrections; the second from kMany contacts on, where each round takes long.
 constexpr double kHeld = 1e-7, kHeldOfMany = 1e-5;
 constexpr int kMany = 1000;
 
-// A contact inside its cone by more than this part of it sticks.
+// A contact inside its cone by more than this share of it sticks.
 constexpr double kSticking = 1e-9;
 
-// A plan does not end where a slip ends before the first of these parts of it, or after the second.
+// A plan does not end where a slip ends before the first of these shares of it, or after the second.
 constexpr double kShortest = 1.0 / 2048, kNearlyAll = 0.99;
-// m: a slip that goes less far has ended; of its speed: it has stopped in the middle of the plan.
+// m: a slip over a shorter path has ended; a slip that keeps less than this share of its speed at the middle of the
+// plan has stopped.
 constexpr double kNoPath = 1e-10, kStopped = 1e-9;
 
 Vec3 along_surface(const Vec3& normal, const Vec3& v) {
@@ -108,8 +110,8 @@ IslandResult CoulombLaw::push(const ContactSet& set, std::span<const double> lim
     left = residual;
     for (std::size_t i = 0; i < count; ++i) impulses[i] = sweeps_.impulse(static_cast<int>(i));
   };
-  if (count > kFew) take(sweeps_.run(0, kTolerance));  // the guess may be good
-  for (const Turn& turn : kTurns) {  // each end of some sweeps is another start for the others
+  if (count > kFew) take(sweeps_.run(0, kTolerance));  // the guess may be good enough
+  for (const Turn& turn : kTurns) {  // what one method has reached is a new start for the other
     const double enough = count > kFewest ? turn.enough * (count < kMany ? 1 : kMore) : turn.enough_of_few;
     if (left > kNear || turn.again) take(sweeps_.run(turn.sweeps, kTolerance));
     if (left > enough && count <= kFewest) solve_by_matrix(set, Method::newton, impulses, result);
@@ -131,11 +133,11 @@ IslandResult CoulombLaw::push(const ContactSet& set, std::span<const double> lim
 }
 // ANCHOR_END: push
 
-// From where sweeps got to.
+// Continues from what sweeps have reached.
 void CoulombLaw::solve_by_matrix(const ContactSet& set, Method method, std::span<Vec3> impulses,
                                  IslandResult& result) {
   const auto n = static_cast<Eigen::Index>(set.contacts.size());
-  std::vector<lcp::Contact> rows;  // of each contact along its normal and two tangents
+  std::vector<lcp::Contact> rows;  // of each contact, along its normal and two tangents
   VecX offset(3 * n), guess(3 * n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const lcp::Contact& contact = set.contacts[static_cast<std::size_t>(i)];
@@ -201,7 +203,7 @@ void CoulombLaw::give_back(const ContactSet& set, std::span<const double> normal
 }
 // ANCHOR_END: give_back
 
-// Who stands is solved once. Arrivals are dear.
+// Bodies that stand are solved once. Arrivals take much more work.
 double CoulombLaw::event_work(double arrivals, int rank) const {
   const double rows = 8 + rank;
   return kOfStanding * rows + kOfArrival * arrivals * rows * rows;
@@ -215,15 +217,15 @@ std::unique_ptr<resting::GaussSeidel> CoulombLaw::gauss_seidel() const {
   return std::make_unique<PatchedGaussSeidel>(world_);
 }
 
-// The slip of a contact changes evenly: from what it is now, over its mean, to as much on the other side. If it would turn back
-// on the way, it stops there. If the push stops it at once, its friction is a part of what the cone allows: with all of that the
-// mean would be half of the slip after a time that is half of this part of the plan's. Corners share a body's friction as they
-// like, so the last of these guesses is tried: when it was too long, the next try knows better.
+// The slip of a contact changes evenly: from its present value, over its mean, to as much on the other side. If it would
+// reverse on the way, it stops there. If the push stops it at once, its friction is a share of what the cone allows: with
+// all of that, the slip would end after half of this share of the plan. The corners of a body share its friction
+// arbitrarily, so the last of these guesses is tried: if it was too long, the next try starts from better values.
 // ANCHOR: holds_until
 double CoulombLaw::holds_until(const ContactSet& mean, std::span<const RigidBody> now,
                                std::span<const Vec3> impulses, double length) const {
   if (mean.contacts.size() > kFewSlips) return length;
-  double until = length, stuck = 0;  // where nobody sticks yet; the last of those that do
+  double until = length, stuck = 0;  // the first stop of contacts that slide; the last of those that stick
   for (std::size_t i = 0; i < mean.contacts.size(); ++i) {
     const lcp::Contact& contact = mean.contacts[i];
     if (!(impulses[i].dot(contact.normal) > 0) || !(mu(mean, contact) > 0)) continue;
@@ -231,7 +233,7 @@ double CoulombLaw::holds_until(const ContactSet& mean, std::span<const RigidBody
     Vec3 middle = along_surface(contact.normal, lcp::relative_velocity(mean.bodies, contact));
     if (!mean.bends.empty()) middle += mean.bends[i];
     const double speed = slip.norm();
-    const double left = speed > 0 ? middle.dot(slip) / speed : 0;  // of the speed, in the middle of the plan
+    const double left = speed > 0 ? middle.dot(slip) / speed : 0;  // of the speed, at the middle of the plan
     if (left >= 0.5 * speed) continue;                             // it slides on until the end
     const bool sticks = left <= kStopped * speed;
     const double normal = impulses[i].dot(contact.normal);

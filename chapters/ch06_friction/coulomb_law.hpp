@@ -1,4 +1,4 @@
-// Chapter 6's contact law: Coulomb's, in the place of chapter 5's that only pushes along normals.
+// Chapter 6's contact law: Coulomb's, in place of chapter 5's law, which only pushes along normals.
 #pragma once
 
 #include "ch05_resting_contact/contact_law.hpp"
@@ -12,29 +12,29 @@ using resting::ContactSet;
 using resting::IslandOptions;
 using resting::IslandResult;
 
-// Whether any two shapes of the scene rub: else chapter 5's law is the whole truth.
+// Whether any two shapes of the scene have friction; if not, chapter 5's law is all that is needed.
 bool asks_for_friction(const Scene& scene);
 
-// Contacts of which no pair rubs are solved as in chapter 5, bit for bit.
+// Contacts without friction in any pair are solved as in chapter 5, bit for bit.
 class CoulombLaw : public resting::NormalLaw {
  public:
-  // Balls that rub turn: sets the world's effects.
+  // Sets the world's effects: balls with friction turn.
   explicit CoulombLaw(world::World& world);
 
-  // Coulomb's law on the velocities after, with limits as in NormalLaw: K* ∋ (u_N + limit + µ|u_T|, u_T) ⟂ r ∈ K.
+  // Coulomb's law for the velocities afterwards, with limits as in NormalLaw: K* ∋ (u_N + limit + µ|u_T|, u_T) ⟂ r ∈ K.
   IslandResult push(const ContactSet& set, std::span<const double> limits, std::span<Vec3> impulses,
                     const IslandOptions& options) override;
   // Contacts that stuck in the last push() do not slip.
   IslandResult correct(const ContactSet& set, std::span<const double> limits, std::span<double> impulses,
                        const IslandOptions& options) override;
-  // With friction of at most µ times what is given back.
+  // With friction of at most µ times the normal impulse that is given back.
   void give_back(const ContactSet& set, std::span<const double> normals, std::span<Vec3> total) override;
   bool looks_at_bends() const override { return true; }
   double event_work(double arrivals, int rank) const override;
   double most_work(int bodies) const override;
   double left() const override { return 6e-11; }
   std::unique_ptr<resting::GaussSeidel> gauss_seidel() const override;
-  // Until the first contact that slides comes to rest.
+  // Until the first sliding contact comes to rest.
   double holds_until(const ContactSet& mean, std::span<const RigidBody> now, std::span<const Vec3> impulses,
                      double length) const override;
 
@@ -47,9 +47,9 @@ class CoulombLaw : public resting::NormalLaw {
 
   const world::World& world_;
   ContactSweeps sweeps_;
-  std::vector<Vec3> offsets_;  // m/s, world: what is added to each contact's velocity
-  std::vector<double> mu_;     // of each contact of the set at hand
-  std::vector<char> holds_;    // of each contact of the last push: it sticks
+  std::vector<Vec3> offsets_;  // m/s, world: added to each contact's velocity
+  std::vector<double> mu_;     // of each contact of the current set
+  std::vector<char> holds_;    // of each contact of the last push: whether it sticks
 };
 
 }  // namespace fc::friction

@@ -30,7 +30,7 @@ void PatchedGaussSeidel::end_pair(int first, int world_a, int world_b, std::span
   patch.end = patch.first + rows() - first;
   const Mass &a = masses_[at(patch.a)], &b = masses_[at(patch.b)];
 
-  // The plane is that of the first row; points of the others may lie a little beside it.
+  // The plane is that of the first row; the other points may lie slightly off it.
   const Vec3 n = patch.normal = sources_[at(first)].normal;
   Vec3 centre = Vec3::Zero(), tangential = Vec3::Zero();
   double weight = 0;
@@ -65,7 +65,7 @@ void PatchedGaussSeidel::end_pair(int first, int world_a, int world_b, std::span
     return move_a[j].dot(move_a[k]) + turn_a[j].dot(turn_a[k]) + move_b[j].dot(move_b[k]) +
            turn_b[j].dot(turn_b[k]);
   };
-  // One factor for both, so that friction is against the slip: the larger eigenvalue of their block.
+  // One factor for both tangents, so that friction opposes the slip: the larger eigenvalue of their block.
   const double p = product(0, 0), q = product(1, 1), r = product(0, 1);
   const double root = std::sqrt(0.5 * (p + q) + std::hypot(0.5 * (p - q), r));
   const Vec3 spin_a = -(a.turn_root.transpose() * n), spin_b = b.turn_root.transpose() * n;
@@ -101,7 +101,7 @@ void PatchedGaussSeidel::end_pair(int first, int world_a, int world_b, std::span
   patches_.push_back(patch);
 }
 
-// As their rows: patches that follow each other share no body.
+// Arranges patches like their rows: patches that follow each other share no body.
 void PatchedGaussSeidel::rows_arranged() {
   for (Member& member : members_) member.place = place_[at(member.row)];
   std::sort(patches_.begin() + static_cast<std::ptrdiff_t>(arranged_), patches_.end(),
@@ -166,7 +166,7 @@ void PatchedGaussSeidel::apply_more_guesses() {
   }
 }
 
-// Its patch has less to carry.
+// The row's patch has less load to carry.
 void PatchedGaussSeidel::row_dropped(int row) {
   if (const int patch = patch_of(row); patch >= 0) sweep(patches_[at(patch)], true, false);
 }
@@ -227,7 +227,7 @@ Vec3 PatchedGaussSeidel::whole_impulse(int row) const {
   const Vec3 whole = static_cast<double>(patch.impulse[0]) / root * patch.tangents[0] +
                      static_cast<double>(patch.impulse[1]) / root * patch.tangents[1];
   const double twist = twist_root > 0 ? static_cast<double>(patch.impulse[2]) / twist_root : 0;
-  // About the centre of the shares, arms and moments are those of the shares; whole acts there.
+  // About the centre of the shares, arms and moments are those of the shares; the whole impulse acts there.
   const Vec3 centre = lever / load;
   const double about = twist - patch.normal.dot(centre.cross(whole));
   const double inertia = spread - load * centre.squaredNorm();

@@ -1,4 +1,4 @@
-// Piles with friction: one patch for each pair of bodies, after chapter 5's rows.
+// Piles with friction: one patch for each pair of bodies, solved after chapter 5's rows.
 #pragma once
 
 #include "ch04_multibody_stepping/world.hpp"
@@ -8,17 +8,19 @@ namespace fc::friction {
 
 using resting::Twist;
 
-// All contacts of a pair share two tangents and a twist about their centre (the mean of their points, weighted by the impulses
-// that they had): |r_T| <= µ Λ with Λ = Σ λ_i, and |τ| <= µ Σ λ_i ρ_i, ρ_i the distance from the centre. The bounds follow the
-// rows' impulses, sweep by sweep. Three lines a pair instead of two a contact. Limits: the law is a disc times an interval, which
-// is not the true limit surface of these points; what bounces in a pile gives back no friction.
+// All contacts of a pair share two tangents and a twist about their centre (the mean of their points, weighted by their
+// last impulses): |r_T| <= µ Λ with Λ = Σ λ_i, and |τ| <= µ Σ λ_i ρ_i, ρ_i the distance from the centre. The bounds
+// follow the rows' impulses, sweep by sweep. That makes three lines for a pair instead of two for each contact. Limits:
+// the law is a disc times an interval, not the true limit surface of these points; a bounce in a pile gives back no
+// friction.
 class PatchedGaussSeidel : public resting::GaussSeidel {
  public:
   explicit PatchedGaussSeidel(const world::World& world) : world_(world) {}
 
   void clear() override;
   void end_pair(int first, int world_a, int world_b, std::span<const Vec3> guesses) override;
-  // The row's share of its patch's: r_T by the normal impulses, and of the twist by these and the arms.
+  // The row's share of its patch: r_T in proportion to the normal impulses, and of the twist in proportion to these and
+  // the arms.
   Vec3 whole_impulse(int row) const override;
   int patch_of(int row) const override {
     return resting::at(row) < patch_of_.size() ? patch_of_[resting::at(row)] : -1;
@@ -32,7 +34,7 @@ class PatchedGaussSeidel : public resting::GaussSeidel {
     int a, b;        // bodies, by their numbers here
     int first, end;  // of its rows, among members_
     float mu;
-    Line lines[3];                  // of two tangents and the twist, scaled: the tangents by one factor
+    Line lines[3];                  // for two tangents and the twist, scaled: the tangents by one factor
     float start[3], path_start[3];  // scaled, without impulses
     float impulse[3], correction[3];
     float root, twist_root;
@@ -59,7 +61,7 @@ class PatchedGaussSeidel : public resting::GaussSeidel {
   std::vector<Patch> patches_;
   std::vector<Member> members_;
   std::vector<int> patch_of_;  // of each row, or -1
-  std::size_t arranged_ = 0;   // so many patches stand in the order of their rows' places
+  std::size_t arranged_ = 0;   // this many patches stand in the order of their rows' places
 };
 
 }  // namespace fc::friction

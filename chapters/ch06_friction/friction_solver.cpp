@@ -13,23 +13,23 @@
 namespace fc::friction {
 namespace {
 
-// Sweeps before each attempt of Newton's method. Many a problem needs but the first; those that go in circles are
-// left in another place each time.
+// Sweeps before each attempt of Newton's method. Many problems need only the first attempt; sweeps that go in circles
+// end in another place each time.
 constexpr std::array<int, 5> kSweepsBeforeNewton = {20, 30, 50, 100, 200};
-// Pyramids to begin with where sweeps are no help, of sides drawn anew each time. Where µ is 3, one problem in 70 comes
-// so far; for the hardest known, one draw in 70 leads to an answer. A draw of a large problem takes long.
+// Pyramids to start from where sweeps do not help, with sides drawn at random each time. For µ = 3, one problem in 70
+// needs them; for the hardest known, one draw in 70 leads to an answer. For a large problem a draw takes long.
 constexpr int kDraws = 200;
 constexpr int kDrawnContacts = 4000;
-// Beyond so many contacts a Newton step, or a pyramid, takes longer than very many sweeps: seconds.
+// With more contacts a Newton step, or a pyramid, takes longer than very many sweeps: seconds.
 constexpr Eigen::Index kNewtonContacts = 300;
 constexpr Eigen::Index kPyramidContacts = 60;
 
-// Method after method on one problem; counts their work, and keeps the nearest answer.
+// Tries method after method on one problem; counts their work, and keeps the answer with the smallest residual.
 class Sequence {
  public:
   Sequence(const ConeProblem& problem, const SolveOptions& options) : problem_(problem), options_(options) {}
 
-  // Whether this solved it.
+  // Whether this method solved it.
   bool tries(Method method, const VecX& start, SolveOptions options) {
     options.start = &start;
     options.tolerance = options_.tolerance;

@@ -12,9 +12,9 @@ namespace fc::friction {
 namespace {
 
 constexpr int kSweeps = 2000;
-// How often u is computed anew: round-off gathers in what is only ever added to.
+// Sweeps between two recomputations of u: increments accumulate round-off.
 constexpr int kRefreshEvery = 25;
-// So many sweeps must bring the smallest violation below this share of what it was, or ω is halved.
+// This many sweeps must bring the smallest violation below this share of its former value, or ω is halved.
 constexpr int kWatch = 50;
 constexpr double kProgress = 0.95;
 constexpr double kLeastRelaxation = 1.0 / 16;

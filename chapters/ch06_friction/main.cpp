@@ -10,21 +10,21 @@ namespace {
 
 using namespace fc;
 
-// Friction needs contacts that last: the envelope is that of chapter 5, its default if the scene names none.
+// Friction needs contacts that last: the envelope is the scene's, or chapter 5's default.
 Scene with_envelope(const Scene& scene) {
   Scene result = scene;
   if (!result.envelope) result.envelope = 0;
   return result;
 }
 
-// Throws InputError for what has no effect beside friction.
+// Throws InputError for keys that have no effect with friction.
 void refuse_idle_keys(const Scene& scene) {
   for (const char* key : {"solver.method", "solver.limit", "solver.tolerance"})
     if (const auto mark = scene.mark(key))
-      throw InputError(
-          *mark, fmt::format("'{}' has no effect on contacts with friction, which have solvers of their "
-                             "own; remove it, or the friction",
-                             key));
+      throw InputError(*mark,
+                       fmt::format("'{}' has no effect on contacts with friction, which have their own "
+                                   "solvers; remove it, or the friction",
+                                   key));
 }
 
 std::vector<Effect> explain(const Scene& scene) {
@@ -33,8 +33,9 @@ std::vector<Effect> explain(const Scene& scene) {
   std::vector<Effect> list = resting::explain(with_envelope(scene));
   std::erase_if(list, [](const Effect& effect) { return effect.name == "no rotation"; });
   const world::World world = world::build_world(scene);
-  std::vector<char> moves(world.shapes.size(),
-                          0);  // whether a body of the shape can be moved: two that cannot never rub
+  std::vector<char> moves(
+      world.shapes.size(),
+      0);  // whether a body of the shape can be moved: between two that cannot, there is no friction
   for (const world::Body& body : world.bodies)
     moves[static_cast<std::size_t>(body.shape)] |= !body.state.is_static();
   for (std::size_t a = 0; a < world.shapes.size(); ++a)
@@ -55,7 +56,7 @@ int run(const Scene& scene, const RunContext& context, Summary& summary,
   if (!friction::asks_for_friction(scene)) {
     if (context.clear)
       throw InputError(
-          "--clear and --mine: nothing rubs in this scene; give it the key 'friction', or run it with chapter 5");
+          "--clear and --mine: this scene has no friction; give it the key 'friction', or run it with chapter 5");
     if (scene.envelope) return resting::run_scene(scene, context, summary);
     return world::run_scene(scene, context, summary, world::step, true);
   }
@@ -94,7 +95,7 @@ int run(const Scene& scene, const RunContext& context, Summary& summary,
   summary.add("work of friction", work, "J");
   if (context.clear) {
     summary.add_note("islands are solved by",
-                     "sweeps over their contacts, one after the other, and by nothing else");
+                     "sweeps over their contacts, one after the other, and no other method");
     summary.add("islands that sweeps did not solve (piles from then on)", std::int64_t{unsolved});
   }
   return code;

@@ -10,8 +10,8 @@ namespace fc::friction {
 namespace {
 
 constexpr int kSteps = 30;
-// Pivots of the decomposition below this share of the largest are those of redundant contacts. Smaller, and round-off
-// in A is taken for a stiffness; larger, and towers, which are soft in truth, are taken for redundant.
+// Pivots of the decomposition below this share of the largest belong to redundant contacts. If it is smaller, round-off
+// in A counts as a stiffness; if larger, towers, which are truly soft, count as redundant.
 constexpr double kRank = 1e-10;
 
 // F of one contact and its derivative: dF = of_u du + of_r d(s r).
@@ -45,7 +45,7 @@ Piece piece(const Vec3& r, const Vec3& u, double mu, double s) {
 }
 // ANCHOR_END: piece
 
-// F at r, and J, its derivative with respect to s r: without a unit. Rows by the case of their contact.
+// F at r, and J, its derivative with respect to s r: without a unit. Each contact's rows follow its case.
 struct Linear {
   VecX F;
   MatX J;
@@ -68,8 +68,8 @@ void linearise(const ConeProblem& problem, const VecX& scale, const VecX& r, Lin
   }
 }
 
-// The least change of s r that solves J change = -F, as nearly as may be. Open contacts, whose F is s r, give up their
-// impulses; what that does to the others goes to their right-hand side, and only these are decomposed.
+// The smallest change of s r that solves J change = -F in the least-squares sense. Open contacts, whose F is s r, give
+// up their impulses; the effect on the others goes to their right-hand side, and only these others are decomposed.
 VecX least_change(const Linear& at) {
   VecX change = -at.F;
   if (at.closed.empty()) return change;

@@ -8,8 +8,8 @@
 namespace fc::friction {
 namespace {
 
-// Relative to A's largest entry an eigenvalue, and relative to what cancels in it a d̂, below this is 0: some fifty
-// units of round-off.
+// An eigenvalue below this share of A's largest entry is 0, and so is a d̂ below this share of the terms that cancel in
+// it: about fifty units of round-off.
 constexpr double kDead = 1e-14;
 
 Vec2 turned(const Vec2& v) {
@@ -47,7 +47,7 @@ Vec3 OneContact::solve(const Vec3& q) const {
   const Vec2 along{axis_.dot(q.tail<2>()), turned(axis_).dot(q.tail<2>())};
   Vec2 d = along - c_ * q[0];
 
-  // Stick: u_T = 0, where impulses reach; a velocity that they do not reach must not be there.
+  // Stick: u_T = 0 along directions that impulses reach; along others there must be no velocity.
   Vec2 tangent = Vec2::Zero();
   bool stops = true;
   for (int i = 0; i < 2; ++i) {

@@ -44,8 +44,8 @@ Pyramids::Pyramids(const ConeProblem& problem, int sides, const VecX& angle) {
   q_ = pushes_.transpose() * problem.b;
   const VecX scale = contact_scales(problem);
   for (Eigen::Index i = 0; i < n; ++i) {
-    // The unit of λ is ours to choose: with this one its row has entries as large as the others of its contact. As a
-    // power of two it costs no digits.
+    // The unit of λ is free: with this one its row has entries as large as the others of its contact. Being a power of
+    // two, it costs no digits.
     const double unit = std::exp2(std::round(0.5 * std::log2(scale[i])));
     const Eigen::Index normal = (m + 2) * i, lambda = normal + m + 1;
     M_(lambda, normal) = unit * problem.mu[i];
@@ -70,7 +70,7 @@ ConeResult solve_pyramid(const ConeProblem& problem, const SolveOptions& options
   if (refused(problem, options, best)) return best;
   const int rounds = !options.turned ? 1 : options.limit > 0 ? options.limit : kMostTurns;
   VecX angle(problem.contacts());
-  // Multiples of the golden ratio, less their whole part, are spread evenly and in no order.
+  // The fractional parts of multiples of the golden ratio are spread evenly, in no order.
   for (Eigen::Index i = 0; i < angle.size(); ++i)
     angle[i] = 2 * std::numbers::pi *
                std::fmod(0.6180339887498949 * static_cast<double>(options.draw * (i + 1)), 1.0);

@@ -8,9 +8,9 @@
 namespace fc::friction {
 namespace {
 
-// Newton's method takes about five steps. Halving the bracket takes at most as many as a double has bits.
+// Newton's method takes about five steps. Halving the bracket takes at most as many steps as a double has bits.
 constexpr int kRootSteps = 200;
-constexpr int kHalvings = 48;  // of a stretch of t: they only tell roots from each other
+constexpr int kHalvings = 48;  // of a stretch of t: they only separate roots
 
 using Polynomial = std::array<double, 5>;  // coefficients of 1, t, t², t³, t⁴
 
@@ -69,7 +69,7 @@ double SlipEquation::beyond_all_roots() const {
 }
 
 // f(low) > 0 >= f(high). Newton's method on µ r_N/|r_T| - 1, which is nearly a straight line in α (Moré and Sorensen
-// 1983, for the radius of a trust region), and halves the bracket where it leaves it.
+// 1983, for the radius of a trust region); where a step leaves the bracket, the bracket is halved.
 // ANCHOR: root
 double SlipEquation::root_between(double low, double high) const {
   double alpha = high;
@@ -91,10 +91,11 @@ double SlipEquation::root_between(double low, double high) const {
 }
 // ANCHOR_END: root
 
-// Where f may have several roots, it is searched piece by piece. With t = α/(α + τ), and L_i = δ_i (1-t) + τ t, f = 0
-// is, times its conjugate and the denominators, a quartic:
+// Where f may have several roots, it is searched piece by piece. With t = α/(α + τ) and L_i = δ_i (1-t) + τ t, the
+// equation f = 0, multiplied by its conjugate and the denominators, is a quartic:
 //   (1-t)² |(d̂₁L₂, d̂₂L₁)|² = µ² (free L₁L₂ + (1-t)(c₁d̂₁L₂ + c₂d̂₂L₁))².
-// It has one root at most between two neighbouring turning points, so that f changes its sign there once at most.
+// Between two neighbouring turning points the quartic has at most one root, so that f changes its sign there at most
+// once.
 double SlipEquation::least_root(bool one_root) const {
   const double most = beyond_all_roots();
   if (!std::isfinite(most)) return most;

@@ -8,7 +8,7 @@
 namespace fc::friction {
 namespace {
 
-// An approach slower than this, against the velocities that cancel in it, is what a residual of 1e-10 leaves.
+// A residual of 1e-10 may leave an approach slower than this, relative to the velocities that cancel in it.
 // Consequence: at 10 m/s two bodies may be left approaching at 1e-8 m/s.
 constexpr double kApproachLeft = 1e-9;
 
@@ -32,13 +32,13 @@ double fastest_approach(const VecX& u) {
   return fastest;
 }
 
-// The largest κ <= 1 with κ² r̂'Ar̂ <= r¹'Ar¹, where r̂ would come back without a cap.
+// The largest κ <= 1 with κ² r̂'Ar̂ <= r¹'Ar¹, where r̂ is what would be given back without a cap.
 double cap_of(const MatX& A, const VecX& compression, const VecX& wanted) {
   const double stored = compression.dot(A * compression), returned = wanted.dot(A * wanted);
   return returned > stored ? std::sqrt(std::max(0.0, stored) / returned) : 1.0;
 }
 
-// The two stages from the velocities u, with the restitutions given.
+// The two stages from the velocities u, with given restitutions.
 Status run_pass(const FrictionImpact& impact, const VecX& u, const VecX& restitution,
                 const FrictionImpactOptions& options, ImpactPass& pass) {
   // Compression: no restitution.
@@ -48,13 +48,13 @@ Status run_pass(const FrictionImpact& impact, const VecX& u, const VecX& restitu
   pass.compression = first.r;
   pass.compressed = energy_change(problem, first.r);
 
-  // What comes back, under the cap.
+  // What is given back, under the cap.
   VecX expansion = VecX::Zero(u.size()), radius(restitution.size());
   for (Eigen::Index i = 0; i < radius.size(); ++i) expansion[3 * i] = restitution[i] * first.r[3 * i];
   pass.cap = cap_of(impact.A, first.r, expansion);
   expansion *= pass.cap;
 
-  // Friction against it, and against what still slides.
+  // Friction against the expansion, and against the slip that is left.
   for (Eigen::Index i = 0; i < radius.size(); ++i) radius[i] = impact.mu[i] * expansion[3 * i];
   if (!radius.isZero(0)) {
     const VecX pushed = first.u + impact.A * expansion;

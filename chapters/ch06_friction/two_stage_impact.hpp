@@ -1,15 +1,15 @@
 // The impact law with friction: velocities just after bodies have hit each other, at any number of contacts.
 //
-// Newton's law with Coulomb's friction can gain energy: a rod that hits the floor at 45° with its lower end leaves with
-// 64/41 of it. Here an impact has two stages, as Poisson divided it, and a cap.
+// Newton's law with Coulomb's friction can gain energy: a rod that hits the floor with its lower end at 45° leaves with
+// 64/41 of it. Here an impact has two stages, after Poisson, and a cap.
 //   compression  r¹ solves the cone problem without restitution (cone_problem.hpp): ΔE <= -½ r¹'Ar¹.
 //   expansion    gives back a share of the normal impulses, r²_N = κ ε r¹_N (ε of each contact), against friction that
-//                may be up to µ r²_N and takes as much energy out as it can (Tresca's problem, convex):
+//                may be up to µ r²_N and removes as much energy as it can (Tresca's problem, convex):
 //                ΔE <= ½ r²_N'A r²_N, since u_N = 0 where r¹_N > 0, and r²_T = 0 was allowed.
-//   cap          κ <= 1 is the largest for which ½ r²_N'A r²_N <= ½ r¹'Ar¹: no more comes back than went in.
-// So no impact gains energy, whatever the µ, mixed restitutions and all. Without friction, and with one ε, κ is 1, and
-// the law is chapter 3's: r = (1 + ε) r¹. With one contact whose normal and tangents do not couple it is Newton's,
-// Poisson's and Stronge's.
+//   cap          κ <= 1 is the largest for which ½ r²_N'A r²_N <= ½ r¹'Ar¹: no more energy is given back than was taken.
+// So no impact gains energy, for any µ and any mix of restitutions. Without friction, and with one ε, κ is 1, and the
+// law is chapter 3's: r = (1 + ε) r¹. With one contact whose normal and tangents do not couple it is Newton's,
+// Poisson's and Stronge's law.
 #pragma once
 
 #include <vector>
@@ -18,7 +18,7 @@
 
 namespace fc::friction {
 
-// What hits. It holds references: all must outlive the call. A, rows and mu as ConeProblem has them.
+// The impact. It holds references: all must outlive the call. A, rows and mu are as in ConeProblem.
 struct FrictionImpact {
   const MatX& A;            // 3n by 3n, 1/kg
   const VecX& u;            // 3n, m/s, relative velocities before
@@ -35,17 +35,17 @@ struct ImpactPass {
 };
 
 struct FrictionImpactResult {
-  Status status = Status::solved;  // of the first solve that failed; unless solved, r is 0
+  Status status = Status::solved;  // of the first solve that failed; unless it is solved, r is 0
   VecX r;                          // 3n, N s, of all passes together
   VecX u;                          // 3n, m/s, velocities after: A r + u
   std::vector<ImpactPass> passes;  // none: nothing approached
   double energy_change = 0;        // J, of r
-  double fastest_approach = 0;     // m/s, >= 0: what is left
+  double fastest_approach = 0;     // m/s, >= 0: the approach that is left
 };
 
 struct FrictionImpactOptions {
-  // A pass may leave contacts approaching that were separating; then another follows in the same instant, at most so
-  // many, >= 2, the last without restitution, after which nothing approaches.
+  // A pass may leave contacts approaching that were separating; then another pass follows in the same instant: at most
+  // this many, >= 2, the last without restitution, after which nothing approaches.
   int max_passes = 8;
   Method method = Method::combined;
   SolveOptions solve = {};
@@ -58,9 +58,9 @@ struct FrictionImpactOptions {
 FrictionImpactResult two_stage_impact(const FrictionImpact& impact,
                                       const FrictionImpactOptions& options = {});
 
-// The cone problem whose answer is Tresca's: r_N,i = radius_i (N s, >= 0) whatever the velocities, and r_T the friction
-// up to radius_i at every contact that takes most energy out of them. Normals are given one row of their own, which
-// nothing couples to the others, and µ = 1: Coulomb's law with a normal impulse that is known.
+// The cone problem whose answer solves Tresca's: r_N,i = radius_i (N s, >= 0) whatever the velocities, and r_T, up to
+// radius_i at each contact, is the friction that removes most energy. Each normal gets a row of its own, which is not
+// coupled to the others, and µ = 1: Coulomb's law with a known normal impulse.
 ConeResult solve_discs(const MatX& A, const VecX& u, const VecX& radius, Method method,
                        const SolveOptions& options);
 

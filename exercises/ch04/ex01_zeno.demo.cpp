@@ -1,5 +1,5 @@
-// Exercise 4.1, to be seen: the chapter's engine, which stops where the bounces pile up, and the closed form.
-// Writes zeno.csv.
+// Exercise 4.1, to be seen: the chapter's engine, which stops where the bounces pile up, and the closed form. Writes
+// zeno.csv.
 #include <cstdio>
 #include <filesystem>
 

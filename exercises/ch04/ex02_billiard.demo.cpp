@@ -1,5 +1,4 @@
-// Exercise 4.2, to be seen: two billiards in one ellipse, between the foci and around them. Writes
-// billiard.csv.
+// Exercise 4.2, to be seen: two billiards in one ellipse, between the foci and around them. Writes billiard.csv.
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -16,7 +15,7 @@ int main(int argc, char** argv) {
   try {
     std::filesystem::create_directories(folder);
     TableWriter table(folder / "billiard.csv", {{"start", ""}, {"bounce", ""}, {"x", "m"}, {"y", "m"}});
-    for (const double start : {0.4, 1.7}) {  // m from the middle: the foci are at 1.52 m
+    for (const double start : {0.4, 1.7}) {  // m from the centre: the foci are at 1.52 m
       Vec2 x(start, 0), v(0.3, 1);
       for (std::int64_t i = 0; i <= 150; ++i) {
         table.row({start, i, x.x(), x.y()});

@@ -1,5 +1,5 @@
-// Exercise 4.3, to be seen: how many pairs of boxes overlap in a gas of spinning blocks, with balls around
-// them as in the chapter, and with the learner's boxes, for longer and longer frames. Writes swept.csv.
+// Exercise 4.3, to be seen: how many pairs of boxes overlap in a gas of spinning blocks, for longer and longer frames:
+// with balls around the blocks, as in the chapter, and with the learner's boxes. Writes swept.csv.
 #include <cstdio>
 #include <filesystem>
 #include <random>

@@ -1,5 +1,4 @@
-// Exercise 4.5, to be seen: the learner's steps and explicit ones, against the closed form. Writes
-// tumble.csv.
+// Exercise 4.5, to be seen: the learner's steps and explicit ones, compared with the closed form. Writes tumble.csv.
 #include <cstdio>
 #include <filesystem>
 
@@ -13,7 +12,7 @@ namespace {
 using namespace fc;
 using exercises::Tumbler;
 
-// The spin of the start for the whole step.
+// Uses the spin at the start for the whole step.
 void explicit_step(Tumbler& body, double h) {
   const Vec3 spin = body.momentum.cwiseQuotient(body.moments);
   body.rotation = body.rotation * Eigen::AngleAxisd(h * spin.norm(), spin.normalized()).toRotationMatrix();

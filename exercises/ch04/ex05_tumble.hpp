@@ -16,10 +16,10 @@ struct Tumbler {
 // One step of h seconds (either sign; |h| times the spin at most 0.5 rad). Euler's equations seen from the
 // body are dL/dt = L x w with w = L / moments. The step solves
 //   L1 = L0 + h Lm x wm,   Lm = (L0 + L1)/2,   wm = Lm / moments
-// to rounding, and turns the body by wm so that the angular momentum in the world, rotation * momentum, stays
-// as it is. Guarantees: |L|, the kinetic energy and the angular momentum in the world stay to rounding; the
-// error of the orientation at a fixed time falls as h^2; a step back undoes a step. Returns how often the
-// right-hand side was evaluated, at most 40: when only rounding changes, it is over.
+// to rounding, and turns the body by wm so that the angular momentum in the world, rotation * momentum, is kept.
+// Guarantees: |L|, the kinetic energy and the angular momentum in the world are kept to rounding; the error of the
+// orientation at a fixed time falls as h^2; a step back undoes a step. Returns how often the right-hand side was
+// evaluated, at most 40: the iteration ends when it changes nothing but rounding.
 int step(Tumbler& body, double h);
 
 }  // namespace fc::exercises

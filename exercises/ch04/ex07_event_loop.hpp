@@ -8,16 +8,16 @@ namespace fc::mine {
 using world::clear::Event;
 using world::clear::Frame;
 
-// Takes one event after the other from the frame, the earliest first, until none is left in it.
-//   Event::Kind::clear    The search has proved no more than that nothing happens before: the pair is queried again from now.
+// Takes one event after the other from the frame, the earliest first, until none is left.
+//   Event::Kind::clear    The search has proved only that nothing happens before: the pair is queried again from now on.
 //   Event::Kind::sensed   It is reported. Nothing else happens: the pair is not solved, and not queried.
-//   Event::Kind::contact  The contacts of the instant are solved together, and the bodies that have got another motion are
-//                         renewed (their pairs are queried anew by that, each once). If neither body of this event is among
-//                         them, the pair has no event in the queue now, and must be queried from now on, or it is lost.
-//                         If after that a pair that had stalled is stalled again, the bodies of the instant are frozen, and
-//                         those whose motion that changes are renewed, too.
-// clear/pieces.hpp says what each function of Frame does. What solve() and freeze() return lives until the next call of
-// either.
+//   Event::Kind::contact  The contacts of the instant are solved together, and the bodies with a new motion are renewed (which
+//                         queries their pairs again, each once). If neither body of this event is among them, the pair has
+//                         no event in the queue now: it must be queried from now on, or it is lost.
+//                         If the event was stalled, and the pair is stalled again after that, the bodies of the instant are
+//                         frozen, and those whose motion this changes are renewed, too.
+// clear/pieces.hpp says what each function of Frame does. The results of solve() and freeze() are valid until the next
+// call of either.
 void event_loop(Frame& frame);
 
 }  // namespace fc::mine

@@ -1,5 +1,5 @@
-// Exercise 5.1, to be seen: how gaps come to half of the envelope, on the moon; beside it Baumgarte's
-// way, which makes a velocity of what a gap lacks. Writes row.csv.
+// Exercise 5.1, to be seen: how gaps come to half of the envelope, on the moon; beside it Baumgarte's method, which
+// turns what a gap lacks into a velocity. Writes row.csv.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
         table.row({"Baumgarte", part * envelope.width, k * envelope.dt, gap, 0.5 * velocity * velocity, 0.0});
         const double lacks = 0.5 * envelope.width - gap;
         const double least =
-            (lacks > 0 ? 0.8 : 1) * lacks / envelope.dt;  // stiff, as one is tempted to have it
+            (lacks > 0 ? 0.8 : 1) * lacks / envelope.dt;  // stiff, as one is tempted to choose it
         velocity = std::max(velocity - envelope.dt * kMoon, least);
         gap += envelope.dt * velocity;
       }

@@ -1,5 +1,5 @@
-// Exercise 5.2, to be seen: how many bounces envelopes of different widths leave, how much time they cut, and
-// when the chapter's engine has the ball at rest. Writes last_bounce.csv.
+// Exercise 5.2, to be seen: how many bounces envelopes of different widths leave, how much time they cut off, and when
+// the ball is at rest in the chapter's engine. Writes last_bounce.csv.
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -15,7 +15,7 @@ using namespace fc;
 
 constexpr double kFrame = 1. / 120;  // s
 
-// When the engine's ball does not move any more, s.
+// When the ball stops moving in the engine, s.
 double engine_rest(const exercises::Drop& drop, double width) {
   Scene scene;
   scene.gravity = Vec3(0, 0, -drop.gravity);

@@ -1,6 +1,5 @@
-// Exercise 5.3, to be seen: cubes in a grid, all on one floor or over each other, of which neighbours touch
-// with a given chance; the largest island, and what the largest would be if the floor joined. Writes
-// islands.csv.
+// Exercise 5.3, to be seen: cubes in a grid, all on one floor or one above the other, whose neighbours touch with a
+// given chance; the largest island, and what the largest would be if floors joined. Writes islands.csv.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -39,7 +38,7 @@ int main(int argc, char** argv) {
     std::uniform_real_distribution<double> any(0, 1);
     for (const bool wall : {false, true}) {
       for (int percent = 0; percent <= 100; percent += 4) {
-        // Body 0 is the floor. Lying cubes touch it all; of a wall only the lowest row does.
+        // Body 0 is the floor. Cubes that lie on it all touch it; of a wall only the lowest row does.
         std::vector<Touch> contacts;
         const auto body = [](int column, int row) { return 1 + column + kSide * row; };
         for (int row = 0; row < kSide; ++row)

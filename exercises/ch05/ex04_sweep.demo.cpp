@@ -1,5 +1,5 @@
-// Exercise 5.4, to be seen: how many sweeps stacks need, from below, from above, and with a heavy body on
-// top. Writes sweep.csv.
+// Exercise 5.4, to be seen: how many sweeps stacks need, from below, from above, and with a heavy body on top. Writes
+// sweep.csv.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>

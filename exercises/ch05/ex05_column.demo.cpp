@@ -1,4 +1,4 @@
-// Exercise 5.5, to be seen: gaps of a column, frame by frame, while its gaps are put right; and what it costs for
+// Exercise 5.5, to be seen: the gaps of a column, frame by frame, while they are corrected; and what this costs for
 // columns of different heights. Writes column.csv and energy.csv.
 #include <cstdio>
 #include <filesystem>

@@ -20,11 +20,11 @@ using resting::clear::RestingRow;
 //   3. correct          y = w + M^-1 J'c, the same with at most
 //                           (g + bend - want) / T   m/s,             want = max(keep + (r - keep) / 5, r / 2)
 //
-// Returns z and c (N s, one for each row), and the bodies where they are now, once with the velocities w, once with y. The
-// bodies of `island` are not changed. solve_lcp finds the impulses: it is given A (n by n) and b (n), and finds z. It does
-// not change z if it fails.
-//   2 has no solution: `solved` is false, and nothing else counts.
-//   3 has no solution: there is no room to put the gaps right; c is 0, and y is w. `solved` stays true.
+// Returns z and c (N s, one for each row), and the bodies at their present poses, once with the velocities w, once with
+// y. The bodies of `island` are not changed. solve_lcp finds the impulses: it gets A (n by n) and b (n), and finds z.
+// If it fails, it leaves z unchanged.
+//   2 has no solution: `solved` is false, and the rest of the result is meaningless.
+//   3 has no solution: there is no room to correct the gaps; c is 0, and y is w. `solved` stays true.
 //   No rows: solved; w and y are u.
 // Of chapter 3 you may use, in namespace lcp,
 //   assemble(bodies, contacts)             A, and v_before = J v        ch03_impulse_lcp/delassus.hpp

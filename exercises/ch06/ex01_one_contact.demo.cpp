@@ -1,5 +1,5 @@
-// Exercise 6.1, to be seen: Painlevé's rod, which closes in slowly while it slides; and which way friction points at a contact
-// that is easier to move along one tangent than along the other. Writes rod.csv and directions.csv.
+// Exercise 6.1, to be seen: Painlevé's rod, which closes in slowly while it slides; and the direction of friction at a
+// contact that is easier to move along one tangent than along the other. Writes rod.csv and directions.csv.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

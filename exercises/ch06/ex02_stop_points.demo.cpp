@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
   using namespace fc::exercises;
   const std::filesystem::path folder = argc > 1 ? argv[1] : "out/ch06_ex02";
   constexpr double kMu = 0.5, kGravity = 9.81, kDegree = std::numbers::pi / 180;
-  const double speed = std::sqrt(2 * kMu * kGravity);  // m/s: it comes 1 m far
+  const double speed = std::sqrt(2 * kMu * kGravity);  // m/s: it slides 1 m
   try {
     std::filesystem::create_directories(folder);
     TableWriter table(

@@ -1,5 +1,5 @@
-// Exercise 6.3, to be seen: how the residual falls, sweep by sweep, in three problems, one of which goes in circles; and a block
-// on two feet that brakes. Writes sweeps.csv and block.csv.
+// Exercise 6.3, to be seen: how the residual falls, sweep by sweep, in three problems, one of which goes in circles;
+// and a braking block on two feet. Writes sweeps.csv and block.csv.
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -14,7 +14,7 @@ namespace {
 using namespace fc::exercises;
 using fc::MatX, fc::Vec3, fc::VecX;
 
-// Contacts of bodies with so many degrees of freedom.
+// Contacts of bodies with this number of degrees of freedom in all.
 Problem random_problem(unsigned seed, int count, double mu, int freedoms) {
   std::mt19937_64 random(seed);
   const auto any = [&] { return 2 * static_cast<double>(random() >> 11) / 9007199254740992.0 - 1; };
@@ -26,7 +26,7 @@ Problem random_problem(unsigned seed, int count, double mu, int freedoms) {
   return problem;
 }
 
-// A block of 2 kg, its feet 0.6 m apart and 0.5 m below its centre, that slides in a plane; and gravity for 1/60 s.
+// A block of 2 kg that slides in a plane, its feet 0.6 m apart and 0.5 m below its centre; with gravity for 1/60 s.
 Problem block(double mu) {
   MatX J = MatX::Zero(6, 3);
   for (int i = 0; i < 2; ++i) {

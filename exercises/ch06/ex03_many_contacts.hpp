@@ -1,4 +1,4 @@
-// Exercise 6.3: many contacts, one after the other, and the number that says when it is enough.
+// Exercise 6.3: many contacts, one after the other, and the number that says when the answer is good enough.
 #pragma once
 
 #include <cmath>
@@ -16,8 +16,8 @@ struct Problem {
 
 struct Result {
   VecX r;
-  double residual = 0;    // of r, as `residual` says
-  int sweeps = 0;         // that were made
+  double residual = 0;    // of r, see residual()
+  int sweeps = 0;         // sweeps made
   double relaxation = 1;  // ω at the end
   bool solved = false;    // residual <= tolerance
 };
@@ -27,22 +27,23 @@ struct Result {
 //
 //     largest over contacts of  s |r - P(r - û/s)|,  divided by the larger one of |b|_max and (|A| |r|)_max
 //
-// It is 0 exactly for answers, and does not depend on units, masses or the length of a frame. 0 if all velocities are 0.
+// It is 0 exactly for solutions, and does not depend on units, masses or the length of a frame. 0 if all velocities are
+// 0.
 double residual(const Problem& problem, const VecX& r);
 
-// Sweeps from r = 0. A sweep goes through the contacts forwards, the next one backwards, and so on. At each contact
+// Sweeps from r = 0: through the contacts forwards, then backwards, and so on by turns. At each contact
 //     r := (1 - ω) r + ω one_contact(its block of A, its velocities without its own impulse, mu)
-// with all other impulses as they are now. At first ω = 1. After every 50 sweeps: if the smallest residual of these 50 is not
-// below 0.95 times the smallest one before, the sweeps go in circles, and ω is halved; but never below 1/16.
-// Ends as soon as the residual is at most the tolerance (looked at before the first sweep and after each), or after
+// with all other impulses as they are now. At first ω = 1. After every 50 sweeps: if the smallest residual of these 50
+// is not below 0.95 times the smallest one before, the sweeps go in circles, and ω is halved; but never below 1/16.
+// Ends as soon as the residual is at most the tolerance (checked before the first sweep and after each), or after
 // `most` sweeps (>= 0).
 Result solve(const Problem& problem, double tolerance, int most);
 
-// What friction turns into heat, J: the sum of -r_T·u_T. For an answer that is mu r_N |u_T| of each contact, and the
-// impulses change the energy by ½ r·(u + b) = -½ r·A r - heat.
+// The heat of friction, J: the sum of -r_T·u_T. For a solution this is mu r_N |u_T| of each contact, and the impulses
+// change the energy by ½ r·(u + b) = -½ r·A r - heat.
 double heat(const Problem& problem, const VecX& r);
 
-// Given: the impulse of one contact (exercise 6.1), for blocks that have an inverse.
+// Given: the impulse of one contact (exercise 6.1), for invertible blocks.
 inline Vec3 one_contact(const Mat3& A, const Vec3& q, double mu) {
   using Vec2 = Eigen::Vector2d;
   using Mat2 = Eigen::Matrix2d;

@@ -1,5 +1,5 @@
-// Exercise 6.4, to be seen: fifteen balls in a triangle, with much and with less friction, and a ball that slips until it rolls.
-// Writes balls.csv and roll.csv.
+// Exercise 6.4, to be seen: fifteen balls in a triangle, with much and with little friction, and a ball that slips
+// until it rolls. Writes balls.csv and roll.csv.
 #include <cmath>
 #include <cstdio>
 #include <filesystem>

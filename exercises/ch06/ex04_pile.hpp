@@ -1,4 +1,4 @@
-// Exercise 6.4: a pile of balls, carried by your own solver.
+// Exercise 6.4: a pile of balls, supported by your own solver.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace fc::exercises {
 
-// A full ball: its inertia is 2/5 m r^2.
+// A solid ball: its inertia is 2/5 m r^2.
 struct Ball {
   double mass = 1;    // kg, > 0
   double radius = 1;  // m, > 0
@@ -19,36 +19,34 @@ struct Ball {
   Vec3 spin = Vec3::Zero();      // rad/s
 };
 
-// A wall or a floor, which nothing moves: the balls are where normal·x >= offset.
+// A wall or a floor, which does not move: the balls are where normal·x >= offset.
 struct Plane {
   Vec3 normal{0, 0, 1};  // of length 1
   double offset = 0;     // m
 };
 
 struct Contact {
-  int a = -1, b = 0;           // a ball, or -1: a plane; and a ball
-  Vec3 normal = Vec3::Zero();  // of length 1, from a to b
-  double room = 0;             // m/s, >= 0: a and b may close in as fast as that
-  double mu = 0;               // >= 0
-  Vec3 impulse =
-      Vec3::Zero();  // N s, in the world's axes: what b has got up to now; a has got the opposite of it
+  int a = -1, b = 0;            // a ball, or -1: a plane; and a ball
+  Vec3 normal = Vec3::Zero();   // of length 1, from a to b
+  double room = 0;              // m/s, >= 0: a and b may close in at this speed
+  double mu = 0;                // >= 0
+  Vec3 impulse = Vec3::Zero();  // N s, in the world's axes: the sum on b so far; a has got the opposite
 };
 
-// One contact of balls. An impulse through a ball's surface does not turn it if it goes along the normal, and a friction
-// does not change the normal velocity: A is a diagonal, with `a` (1/kg, > 0) for the normal and `d` (1/kg, > 0) for any
-// tangent.
-//   q         m/s: the velocity of b seen from a, at the contact, without any impulse
+// One contact of balls. An impulse along the normal does not turn a ball, and friction does not change the normal
+// velocity: A is diagonal, with `a` (1/kg, > 0) for the normal and `d` (1/kg, > 0) for any tangent.
+//   q         m/s: the velocity of b relative to a, at the contact, without any impulse
 //   normal    of length 1, from a to b;  room: m/s, >= 0;  mu: >= 0
 // Returns r (N s, in the world's axes, on b). With u = q + a r_N (normal) + d r_T:
 //   u_N >= -room, r_N >= 0, and one of the two is an equality; |r_T| <= mu r_N; and u_T is 0, or |r_T| = mu r_N
-//   with r_T straight against u_T.
+//   with r_T directly against u_T.
 // Exact up to rounding.
 Vec3 solve_contact(double a, double d, const Vec3& q, const Vec3& normal, double room, double mu);
 
-// One sweep: contact by contact, in the order of the list. Each is solved exactly, as if all other impulses were known.
-// What its impulse changes is given to the balls at once, and contact.impulse is the new *sum*. On entry the balls' velocities
-// have got all impulses already.
-// Returns the largest change of velocity at a contact, m/s: the largest max(a |change of r_N|, d |change of r_T|).
+// One sweep: visits the contacts in the order of the list. Each is solved exactly, as if all other impulses were known.
+// The change of its impulse acts on the balls at once, and contact.impulse becomes the new *sum*. On entry the balls'
+// velocities contain all impulses already. Returns the largest change of velocity at a contact, m/s: the largest max(a
+// |change of r_N|, d |change of r_T|).
 double sweep(std::vector<Ball>& balls, std::vector<Contact>& contacts);
 
 // ---- Given: the loop around it. ----
@@ -63,8 +61,8 @@ struct Pile {
   int sweeps = 0;                            // of the last step
 };
 
-// Gravity, contacts, the impulses of the last step as a guess, sweeps until nothing changes any more, motion. A pair may use
-// up its gap in a step, no more: nothing overlaps but by rounding. Energy never grows: see the statement.
+// Gravity, contacts, the impulses of the last step as a guess, sweeps until nothing changes any more, motion. In a step
+// a pair may at most use up its gap: nothing overlaps except by rounding. Energy never grows: see the statement.
 inline void step(Pile& pile, double dt) {
   constexpr int kMostSweeps = 1000;
   constexpr double kTolerance = 1e-13;  // m/s
@@ -89,7 +87,7 @@ inline void step(Pile& pile, double dt) {
       look(a, b, between.normalized(), between.norm() - ball.radius - other.radius);
     }
   }
-  // The guess is given to the balls, and counted.
+  // The guess acts on the balls, and is counted.
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     Contact& contact = contacts[k];
     const auto found = pile.last.find(names[k]);

@@ -1,5 +1,5 @@
-// Exercise 6.5, to be seen: a cube on a slope, one that slides down, one that is put right again and again, and a rod that is thrown.
-// Writes creeping.csv.
+// Exercise 6.5, to be seen: a cube on a slope, one that slides down, one that is corrected again and again, and a rod
+// that is thrown. Writes creeping.csv.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -84,7 +84,7 @@ int main(int argc, char** argv) {
     table.close();
     std::printf("the cube that should stand: %.3g m after %.0f s\n", stands.body.centre.dot(down),
                 kFrames * kFrame);
-    std::printf("the cube that is put right walks %.3g mm\n", 1000 * walked);
+    std::printf("the cube that is corrected walks %.3g mm\n", 1000 * walked);
     std::printf("energy that nothing explains, of the rod that is thrown: %.2g J\n", made);
   } catch (const TodoError& todo) {
     std::fprintf(stderr, "%s\n", todo.what());

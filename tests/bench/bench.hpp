@@ -34,8 +34,8 @@ inline double median_of(std::vector<double> values) {
   return *middle;
 }
 
-// Times `query(i)` for i = 0 ... count - 1. Each query is run so often in a row (within the effort's limits)
-// that neither the clock's own cost nor a cold cache shows, and all of them `repetitions` times; a query's
+// Times `query(i)` for i = 0 ... count - 1. Each query is repeated in a row (within the effort's limits) until neither
+// the clock's own cost nor a cold cache matters, and all of them `repetitions` times; a query's
 // time is the median of its repetitions.
 template <class Query>
 std::vector<double> times_ns(int count, const Effort& effort, const Query& query) {
@@ -60,8 +60,8 @@ std::vector<double> times_ns(int count, const Effort& effort, const Query& query
   return medians;
 }
 
-// A row of a case, ready to be run: `query(i)` answers query i and returns something that the compiler must
-// not drop; `judge()` compares every answer with the truth, once.
+// A row of a case, ready to be run: `query(i)` answers query i and returns something that the compiler must not
+// optimise away; `judge()` compares every answer with the truth, once.
 template <class Query, class Judge>
 struct Row {
   int count = 0;

@@ -16,7 +16,7 @@ namespace {
 constexpr double kFrame = 1.0 / 60;  // s
 constexpr int kLast = 60;            // frames
 constexpr double kDeep = 1e-3;       // m: an overlap that counts as a failure
-constexpr double kLongest = 90;      // s: who takes longer is stopped, and `frames` says how far it got
+constexpr double kLongest = 90;      // s: a slower engine is stopped, and `frames` says how far it got
 constexpr double kStill = 1e-6;      // J, of all bodies together
 
 class Ours : public Engine {
@@ -32,7 +32,7 @@ class Ours : public Engine {
   int contacts() const override { return report_.step.contacts; }
   double overlap() const { return report_.step.max_penetration; }  // m, in the last step
 
-  // Adds up what the last step reported; not a part of its time.
+  // Adds up what the last step reported; not part of its time.
   void look() {
     ++frames_;
     const double now = energy();
@@ -87,7 +87,8 @@ struct Watched {
     each(from, [&](std::size_t i) { most = std::max(most, (to[i].position - from[i].position).norm()); });
     return most;
   }
-  // How far bodies that should stand went, at most; `fallen` are those that went farther than half their narrowest side.
+  // How far, at most, bodies moved that should stand; `fallen` are those that moved farther than half their narrowest
+  // side.
   void stand(const std::vector<RigidBody>& from, const std::vector<RigidBody>& to,
              std::map<std::string, double>& more) const {
     double sank = 0, aside = 0;

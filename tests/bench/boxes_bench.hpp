@@ -1,5 +1,5 @@
-// What the benchmarks of chapters 5 and 6 share: scenes that our engine, Bullet and ODE step for ten seconds from the start,
-// and one judge of what they did.
+// What the benchmarks of chapters 5 and 6 share: scenes that our engine, Bullet and ODE step for ten seconds from the
+// start, and one overlap check for all.
 #pragma once
 
 #include <functional>
@@ -17,16 +17,16 @@ struct Case {
   std::string name;
   Scene scene;
   int frames = kFrames;
-  bool meshes = false;  // ours alone, and so is the judge: the certified gap
-  bool stands = false;  // whoever stays where he starts is right
-  // Ours; none: chapter 5's.
+  bool meshes = false;  // for our engine alone, which is also judged by its own certified gap
+  bool stands = false;  // bodies are right if they stay where they start
+  // Our contact law; none: chapter 5's.
   std::function<std::unique_ptr<resting::ContactLaw>(world::World&)> law = {};
 };
 
 // Registers the rows ours, bullet, bullet_50, ode and ode_50, with the scene's friction.
 void add_case(const Case& what);
 
-// The N of --frames=N, which is taken out of the arguments; kFrames if it is not there.
+// The N of --frames=N, which is removed from the arguments; kFrames if it is absent.
 int most_frames(int& argc, char** argv);
 
 // What was registered; for main() to return.

@@ -41,10 +41,9 @@ struct Bunny {
       : model(hulls::build_model(shape)), size(size_of(shape)), fcl(fcl_mesh(shape.core)) {}
 };
 
-// The truth of one query: a hit if our search or FCL's advancement says so at a hundred-thousandth of the
-// tolerance, and the earlier of their times. They share no code and neither is ever late if it is right, so
-// what one of them does wrong the truth does not repeat. (It was once held to FCL's distance at 300 times of
-// each query as well.)
+// The truth of one query: a hit if our search or FCL's advancement says so at a hundred-thousandth of the tolerance,
+// and the earlier of their times. They share no code, and neither is ever late if it is right, so the truth does not
+// repeat a mistake that only one of them makes.
 struct Truth {
   bool hit = false;
   double toc = 1;
@@ -58,7 +57,7 @@ struct Case {
   int count() const { return static_cast<int>(pairs.size()); }
 };
 
-// What FCL answers: whether, and when. `complete`: and all features in contact, or the distance at the end.
+// FCL's answer: whether they touch, and when. `complete`: also all features in contact, or the distance at the end.
 const ca::AdvanceResult& ours(const Bunny& bunny, const BunnyPair& pair, double tolerance, bool complete) {
   static hulls::SearchMemory memory;
   static ca::AdvanceResult result;
@@ -69,7 +68,7 @@ const ca::AdvanceResult& ours(const Bunny& bunny, const BunnyPair& pair, double 
   return result;
 }
 
-// Both engines move the bodies alike.
+// Both engines move the bodies in the same way.
 void check_poses(const BunnyPair& pair, const FclEnds& ends) {
   for (const double t : {0.0, 0.1, 0.35, 0.5, 0.8, 1.0}) {
     const auto error = [t](const ca::Motion& motion, const Pose& from, const Pose& to) {

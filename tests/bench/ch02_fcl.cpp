@@ -15,7 +15,7 @@ static_assert(EIGEN_MAX_STATIC_ALIGN_BYTES == 16,
 namespace fc::bench {
 namespace {
 
-// Then a pair is given up: it hardly moves, at a distance above the tolerance.
+// After this many steps a pair is given up: it hardly moves, at a distance above the tolerance.
 constexpr int kMaxIterations = 10'000;
 
 fcl::Transform3d transform(const Pose& pose) {

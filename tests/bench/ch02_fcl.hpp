@@ -28,8 +28,8 @@ struct FclAnswer {
   std::int64_t volume_tests = 0, triangle_tests = 0;  // if asked for
 };
 
-// Conservative advancement on FCL's oriented RSS traversal, until the meshes are at most `tolerance` (m)
-// apart. FCL's public call takes another way, which misses contacts; this is the valid one.
+// Conservative advancement on FCL's oriented RSS traversal, until the meshes are at most `tolerance` (m) apart. FCL's
+// public call takes another path, which misses contacts; this is the valid one.
 FclAnswer fcl_advance(const FclMesh& mesh, const FclEnds& ends, double tolerance, bool statistics = false);
 
 // FCL's public continuousCollide with CCDC_CONSERVATIVE_ADVANCEMENT, as it is.

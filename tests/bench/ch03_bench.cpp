@@ -33,13 +33,13 @@ Problems problems_of(Family family, Eigen::Index n) {
 
 bool right(const Lcp& problem, const VecX& z) {
   const VecX w = evaluate(problem.A, problem.b, z);
-  // A peer may leave z at -1e-17: what is negative within round-off counts as zero.
+  // A peer may leave z at -1e-17: values that are negative within round-off count as zero.
   const VecX clean = z.cwiseMax(0.0);
   return z.allFinite() && acceptable(problem, clean, evaluate(problem.A, problem.b, clean)) &&
          residual(problem, z, w) <= kResidual;
 }
 
-// What one solver makes of a problem: z, and how many pivots, sweeps or steps it took (0: not known).
+// What one solver returns for a problem: z, and how many pivots, sweeps or steps it took (0: not known).
 struct Answer {
   bool says_solved = false;
   VecX z;
@@ -148,7 +148,7 @@ int main(int argc, char** argv) {
     add_ours(name + "/ours_row_by_row", Family::all_active, n, effort, false, Guess::none);
     add_bullet(name + "/bullet_dantzig", Family::all_active, n, {1, 1, 1}, &BulletLcp::dantzig);
   }
-  for (const int n : {8, 32, 128, 512}) {  // the last step's impulses as the guess: another question
+  for (const int n : {8, 32, 128, 512}) {  // with the last step's impulses as the guess: a different question
     add_ours("warm_" + std::to_string(n) + "/ours", Family::random_spd, n, {5, 1, n >= 256 ? 4 : 64}, true,
              Guess::planted);
   }

@@ -1,5 +1,4 @@
-// Bullet's solvers of dense LCPs, in double precision, behind plain arrays: its headers stay out of the
-// others' sight.
+// Bullet's solvers of dense LCPs, in double precision, behind plain arrays: other files do not include its headers.
 #pragma once
 
 #include <memory>

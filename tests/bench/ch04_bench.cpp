@@ -32,7 +32,7 @@ struct Outcome {
   Verdict verdict;
 };
 
-// Runs the whole thing some times; `counts` says which frames are timed, `judge` looks at the states.
+// Runs everything several times; `counts` says which frames are timed, `judge` examines the states.
 Outcome simulate(const MakeEngine& make, int bodies, int warm_up, int frames,
                  const std::function<bool(const Engine&)>& counts,
                  const std::function<Verdict(const Frames&)>& judge) {
@@ -204,8 +204,8 @@ void add_bullets() {
   row("ode", [=] { return make_ode(*scene, *shapes); });
 }
 
-// The demo: only frames with contact are timed. Bullet's GImpact meshes are its way to let two moving meshes
-// collide; it takes several frames of overlap for what is one instant here.
+// The demo: only frames with contact are timed. Bullet's GImpact meshes are its method for two moving meshes; it needs
+// several frames of overlap for what is one instant here.
 void add_bunnies() {
   const std::filesystem::path file =
       FC_SOURCE_DIR "/chapters/ch04_multibody_stepping/scenes/two_bunnies.yaml";

@@ -1,5 +1,4 @@
-// A scene in our engine, in Bullet and in ODE, behind one face; the peers' headers stay out of the others'
-// sight.
+// A scene in our engine, in Bullet and in ODE, behind one interface; other files do not include the peers' headers.
 #pragma once
 
 #include <memory>
@@ -17,7 +16,7 @@ class Engine {
   virtual void step(double dt) = 0;
   // The state of a body: position (of the centre of mass), orientation, velocity, spin. The rest is not set.
   virtual RigidBody state(int body) const = 0;
-  // Points of contact that the last step had to do with.
+  // Contact points that the last step handled.
   virtual int contacts() const = 0;
 };
 

@@ -38,7 +38,7 @@ class OdeEngine : public Engine {
   OdeEngine(const Scene& scene, const std::vector<Shape>& shapes, int iterations, double friction)
       : shapes_(shapes), friction_(friction) {
     dInitODE2(0);
-    dRandSetSeed(0);  // of the order of its rows: or a row would depend on those that ran before it
+    dRandSetSeed(0);  // the seed of its row order: otherwise a row would depend on those that ran before it
     world_ = dWorldCreate();
     space_ = dHashSpaceCreate(nullptr);
     joints_ = dJointGroupCreate(0);
@@ -75,7 +75,7 @@ class OdeEngine : public Engine {
       bodies_.push_back(body);
       starts_.push_back(start);
     }
-    // Only now, when the vector no longer moves.
+    // Only now, when the vector's elements no longer move.
     for (std::size_t i = 0; i < geoms_.size(); ++i) dGeomSetData(geoms_[i], &restitution_[i]);
   }
   ~OdeEngine() override {

@@ -1,12 +1,12 @@
-// Chapter 5 beside Bullet and ODE: boxes heaped into a pit, a wall, a stack; frictionless, without bounce,
-// nobody sleeps. Ten seconds of each, from the start. Peers take a step and repair what overlaps; the rows
-// say how deep that is (one judge for all): `failed` counts the frames after which boxes overlap by more than
-// a millimetre. Meshes (a chain, rings, a bunny in a bowl) are ours alone, and so is their judge: the certified gap.
+// Chapter 5 beside Bullet and ODE: boxes heaped into a pit, a wall, a stack; without friction, bounce or sleep. Ten
+// seconds of each, from the start. Peers take a step and repair what overlaps; the rows say how deep that is (one
+// overlap check for all): `failed` counts the frames after which boxes overlap by more than a millimetre. Only our
+// engine runs the meshes (a chain, rings, a bunny in a bowl), judged by its certified gap.
 //
-// Of ours the rows also say what its step does at a price: `shortened_percent` of the bodies a frame, `lost_ms`, and
+// For our engine the rows also report the price: `shortened_percent` of the bodies in a frame, `lost_ms`, and
 // `energy_up_J`, the largest rise in a frame beyond what corrections report.
 //
-// --frames=N: no more than N frames of each, to see that all of it runs.
+// --frames=N: at most N frames of each, to see that everything runs.
 #include <algorithm>
 #include <filesystem>
 

@@ -14,7 +14,7 @@ namespace fc::bench {
 namespace {
 
 constexpr double kSide = 0.5, kEnvelope = 2e-3;  // m
-constexpr double kSpacing = 0.95;                // m: a box may turn in it as it likes
+constexpr double kSpacing = 0.95;                // m: a box has room to turn freely
 constexpr double kApart = 0.01;                  // m: boxes that stand beside each other
 
 int add_box(Scene& scene, const Vec3& size, double mass) {
@@ -43,7 +43,7 @@ Scene empty(const char* name) {
   return scene;
 }
 
-// A floor and four walls, so far apart inside.
+// A floor and four walls, with this distance between opposite walls.
 void add_pit(Scene& scene, double along_x, double along_y, double height) {
   const int floor = add_box(scene, Vec3(along_x + 2, along_y + 2, 1), 0);
   const int side = add_box(scene, Vec3(1, along_y + 2, height), 0);
@@ -163,7 +163,7 @@ Scene chain(int links, const std::filesystem::path& file) {
 }
 
 Scene rings(int count) {
-  constexpr double kScale = 0.3, kRoom = 0.8;  // m: a ring may turn in its place as it likes
+  constexpr double kScale = 0.3, kRoom = 0.8;  // m: a ring has room to turn freely in its place
   Scene scene = empty("rings");
   add_pit(scene, 2 * kRoom + 0.1, 2 * kRoom + 0.1, 0.25 * count * kRoom + 4);
   ShapeSpec ring;

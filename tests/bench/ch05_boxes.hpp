@@ -1,5 +1,5 @@
-// The scenes of chapters 5 and 6's benchmarks: boxes in a pit, walls, a stack, pyramids, an arch; meshes. And how deep bodies
-// overlap, whoever moved them.
+// The scenes of chapters 5 and 6's benchmarks: boxes in a pit, walls, a stack, pyramids, an arch; meshes. And the depth
+// by which bodies overlap, whichever engine moved them.
 #pragma once
 
 #include <filesystem>
@@ -17,7 +17,7 @@ Scene heap(int nx, int ny, int layers);
 Scene wall(int columns, int rows);
 Scene stack(int boxes);
 
-// Without friction these fall. The same wall without walls about it.
+// Without friction these fall. The same wall without walls around it.
 Scene free_wall(int columns, int rows);
 // In a plane, boxes of a metre, each across the gap between two below: `layers` at the bottom, one on top.
 Scene pyramid(int layers);

@@ -1,12 +1,13 @@
-// Chapter 6 beside Bullet and ODE: boxes heaped into a pit, pyramids, a wall, an arch, a stack, all with friction; without
-// bounce, nobody sleeps. Ten seconds of each, from the start, with the same coefficient for all and one judge of what overlaps
-// (chapter 5's benchmark says more of the rows).
+// Chapter 6 beside Bullet and ODE: boxes heaped into a pit, pyramids, a wall, an arch, a stack, all with friction;
+// without bounce or sleep. Ten seconds of each, from the start, with the same coefficient and one overlap check for all
+// (chapter 5's benchmark says more about the rows).
 //
-// `rest_frame` is the first frame from which on all bodies together have less than a microjoule; it is the number of frames if
-// they have more at the end. Of what should stand the rows say how far a body sank or went aside, at most, in all that time,
-// and how many bodies have fallen: their centres are farther from where they were than half their narrowest side.
+// `rest_frame` is the first frame from which on all bodies together have less than a microjoule; it is the number of
+// frames if they have more at the end. For structures that should stand the rows say how far a body sank or moved
+// sideways, at most, in all that time, and how many bodies have fallen: their centres have moved by more than half
+// their narrowest side.
 //
-// --frames=N: no more than N frames of each, to see that all of it runs.
+// --frames=N: at most N frames of each, to see that everything runs.
 #include "ch06_friction/coulomb_law.hpp"
 #include "tests/bench/boxes_bench.hpp"
 #include "tests/bench/ch05_boxes.hpp"

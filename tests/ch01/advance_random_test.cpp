@@ -74,7 +74,7 @@ std::string replay(const Query& q, const ca::AdvanceResult& r, const std::vector
   return wrong.empty() ? "" : wrong[0].what;
 }
 
-// A row that claims a little more than its neighbours in double precision is found out.
+// A row that claims a little more than its neighbours in double precision is detected.
 RC_GTEST_PROP(AdvanceRandom, CertificatesReplay, ()) {
   Random random = random_engine();
   for (int round = 0; round < 10; ++round) {
@@ -150,7 +150,7 @@ RC_GTEST_PROP(AdvanceRandom, MotionBoundsHold, ()) {
   }
 }
 
-// Where GJK begins changes what it costs, not what is found.
+// Where GJK starts changes the cost, not the result.
 TEST(AdvanceRandom, WarmAndColdAgree) {
   Random random(7);
   std::int64_t warm_iterations = 0, cold_iterations = 0;

@@ -59,8 +59,8 @@ TEST(Allocations, NoneInAQuery) {
   EXPECT_EQ(seen.size(), 5u);
 }
 
-// Large hulls have a table of directions, bodies that turn freely a series; once they are there, nothing
-// more.
+// Large hulls have a table of directions, bodies that turn freely a series; after these are built, nothing more is
+// allocated.
 TEST(Allocations, NoneWithLargeHullsThatTurnFreely) {
   Random random(1);
   const auto hull = fc::test::random_hull(random, 1, 500);
@@ -94,7 +94,7 @@ TEST(Allocations, NoneForStraightCorners) {
   EXPECT_EQ(result.status, ca::Status::contact);
 }
 
-// A result that was used says nothing of its former query.
+// A result object that is used again keeps nothing of its former query.
 TEST(Allocations, AUsedResultIsAsGoodAsNew) {
   ca::AdvanceResult used;
   for (std::uint64_t number = 0; number < 300; ++number) {

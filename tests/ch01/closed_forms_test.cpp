@@ -217,7 +217,7 @@ TEST(ClosedForms, StraightAndBallisticFlights) {
 
 TEST(ClosedForms, TurningBodies) {
   expect_all(turning_cases());
-  // One of the roots has a name.
+  // One of the roots has a known value.
   EXPECT_NEAR(static_cast<double>(first_root(turning_cases()[0], 0)), std::asin(0.6875) / 3, 1e-15);
 }
 

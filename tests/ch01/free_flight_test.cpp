@@ -1,4 +1,4 @@
-// Advancement of bodies that turn freely, held to an integrator that knows nothing of the closed form.
+// Advancement of bodies that turn freely, compared with an integrator that does not use the closed form.
 #include <gtest/gtest.h>
 
 #include "ch01_convex_advancement/advance.hpp"
@@ -12,14 +12,13 @@ using namespace fc;
 using namespace fc::test;
 using ca::Status;
 
-#ifdef __SIZEOF_FLOAT128__  // a needle's spin about itself is lost in its momentum, but for many digits
+#ifdef __SIZEOF_FLOAT128__  // a needle's spin about itself hardly shows in its momentum: many digits are lost
 __extension__ using Real = __float128;
 #else
 using Real = long double;
 #endif
 
-// A solid whose spin wanders: its moments are not those of its shape, which makes the wandering as bad as it
-// gets.
+// A solid whose spin wanders: its moments are not those of its shape, which makes the wandering as large as possible.
 struct FreeSolid {
   Solid solid;
   Vec3 moments;
@@ -37,7 +36,7 @@ struct FreeSolid {
   }
 };
 
-// Where it is, by integration. Times asked one after the other should be near each other.
+// Its pose, by integration. Successive times should be near each other.
 class Integrated {
  public:
   explicit Integrated(const FreeSolid& s)

@@ -1,4 +1,4 @@
-// GJK against closed forms and against all pairs of features; its lower bound is one, always.
+// GJK against closed forms and against all pairs of features; its lower bound is always a true one.
 #include "ch01_convex_advancement/gjk.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// The reference itself: against distances by brute force over features, dense sampling, and what it must not
-// be able to tell.
+// The reference itself: against distances by brute force over features, against dense sampling, and on questions that
+// it must leave undecided.
 #include "support/ground_truth.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
-// The cases on which other engines fail, each by its name: their issue trackers are full of them. Besides
-// what is expected here, every answer is held to the slow reference (suite.hpp): not late, not false, both
-// gaps right, the certificate replayed.
+// The cases on which other engines fail, each by its name; most are from their issue trackers. Besides what is expected
+// here, every answer is compared with the slow reference (suite.hpp): not late, not false, both gaps right, the
+// certificate replayed.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -207,7 +207,7 @@ TEST(HardCase, LongBoxesAndSizeRatios) {
   EXPECT_EQ(r.status, Status::contact);
 }
 
-// Points that no hull builder likes: inside, doubled, on faces and edges. They change nothing.
+// Points that are hard for hull builders: inside, doubled, on faces and edges. They change nothing.
 TEST(HardCase, CoincidentCoplanarAndInteriorHullPoints) {
   const truth::Shape clean = box({1, 1, 1});
   truth::Shape messy = clean;
@@ -272,7 +272,7 @@ TEST(HardCase, TheEndPoseOverlapsButAnotherPartCameFirst) {
   EXPECT_GT(r.toc, 0.09);
 }
 
-// Rapier #984, Jolt: neither waits for the other.
+// Rapier #984, Jolt: neither body waits for the other.
 TEST(HardCase, TwoFastBodiesHeadOn) {
   expect_contact(ask(ball(0.01), at({-500, 0, 0}, {1000, 0, 0}), ball(0.01), at({500, 0, 0}, {-1000, 0, 0})),
                  999.98 / 2000, 2000);

@@ -132,7 +132,7 @@ TEST(Linear, InOnePlane) {
   expect_contact(ask(vertex_face({a, c, d, Vec3(0, -3, 0)}, {a + down, c, d, Vec3(0, -3, 0)})), 0.5, 2);
 }
 
-// Touching without passing through: the function whose sign others look at has a double root.
+// Touching without passing through: the determinant, whose sign other methods use, has a double root.
 TEST(Linear, DoubleRoots) {
   const Vec3 c(0, -1, 0), d(0, 1, 0);
   // An edge turns about its middle, which lies on the other edge all the time.
@@ -176,7 +176,7 @@ TEST(Linear, NothingMovesAndNothingIsThere) {
   EXPECT_EQ(ask(vertex_face({o, o, o, o}, {o, o, o, o})).status, Status::touching_at_start);
 }
 
-// What lies below rounding is answered, and the tolerance that was used is told.
+// A tolerance below rounding is raised, and the one that was used is reported.
 TEST(Linear, TinyAndHuge) {
   for (const double size : {1e-18, 1e-9, 1e-3, 1e6}) {
     LinearQuery q = falling_on_triangle(0.25, 0.25);

@@ -141,7 +141,7 @@ TEST(Replay, ProvesEveryBoundAndStatus) {
   }
 }
 
-// One change to a proved run, and what must be said of it, with the line.
+// One change to a proved run, and the expected message, with the line.
 struct Change {
   std::string name;
   std::function<void(Lines& certificate, Lines& queries)> make;

@@ -36,14 +36,14 @@ TEST_P(Suite, HoldsForEveryPairOfKinds) {
   // A start that overlaps by less than the tolerance may be too near to touching to tell.
   EXPECT_LE(100 * unresolved, GetParam() == suite::Story::start ? all : 0);
   EXPECT_LE(1000 * uncertified, all);
-  // The queries are worth asking: none of the answers is rare.
+  // The queries are worth running: none of the answers is rare.
   if (GetParam() == suite::Story::start)
     EXPECT_GE(4 * starts, all);
   else
     EXPECT_GE(20 * std::min(contacts, separated), all);
 }
 
-// Queries of the long runs that an earlier version, of the engine or of the replay, got wrong.
+// Regression cases from long runs, of the engine and of the replay.
 TEST(Suite, QueriesThatOnceFailed) {
   for (const auto& [seed, number] : {std::pair{2026, 295634}, std::pair{2026, 847799}})
     EXPECT_EQ(suite::check(suite::query_of(seed, number), number).wrong, "") << seed << ", " << number;

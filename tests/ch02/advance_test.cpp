@@ -229,8 +229,8 @@ TEST(MeshAdvance, Bunnies) {
   EXPECT_GE(contacts, 20);
 }
 
-// A gap between half the tolerance and all of it, large for the bodies: at the start it is not advanced but
-// looked into.
+// A gap between half the tolerance and all of it, large for the bodies: at the start the pair is not advanced but
+// opened.
 TEST(MeshAdvance, BodiesSmallerThanTheToleranceTouchAtTheStart) {
   TriangleMesh grain = l_prism();
   for (Vec3& p : grain.vertices) p *= 1e-7;
@@ -242,8 +242,7 @@ TEST(MeshAdvance, BodiesSmallerThanTheToleranceTouchAtTheStart) {
   }
 }
 
-// The leaves that met last only say how late the answer can be: it stays the same, whether they meet again or
-// not.
+// The leaves that met last only bound how late the answer can be: it stays the same, whether or not they meet again.
 TEST(FirstReach, CoherentQueriesHaveTheSameAnswers) {
   Random random(17);
   const Model a = model_of(bumpy_ball(random, 12)), b = model_of(ring(1, 0.3, 20, 9));

@@ -197,7 +197,7 @@ TEST(AnyMesh, CollidesExactlyAsItsTriangles) {
   EXPECT_GE(free, 5);
 }
 
-// What has no inside is passed through its hole, and met from within; what has one is not.
+// A mesh without an inside is passed through its hole, and met from within; a solid is not.
 TEST(AnyMesh, InsideIsForSolidsOnly) {
   const TriangleMesh bead = shrunk(box_core({1, 1, 1}), 0.05);
   for (const Wrong& w : wrong_meshes()) {

@@ -60,7 +60,7 @@ TEST(ClearSearch, IsNeverLateAndWhereTheFastSearchIs) {
       EXPECT_LE(found.start_gap, model_distance(model, model, ca::PairPose(m.a, m.b, 0), tolerance).upper);
       if (fast.status == Reach::Status::clear) continue;
       ++hits;
-      // When the true gap comes down to next to nothing, neither of both is late.
+      // When the true gap comes down to almost zero, neither search is late.
       options.target = 1e-9 * size;
       options.slack = 1e-10 * size;
       options.tolerance = options.start = 2e-9 * size;

@@ -45,7 +45,7 @@ Case random_case(Random& random, double drag, double spin_drag, bool only_a) {
   return c;
 }
 
-hulls::ReachOptions wide() {  // so wide a target that a bound which is a little too bold shows
+hulls::ReachOptions wide() {  // a target so wide that a bound which is slightly too small shows
   hulls::ReachOptions options;
   options.target = 0.02;
   options.slack = 0.01;

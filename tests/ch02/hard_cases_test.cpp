@@ -301,7 +301,7 @@ TEST(MeshHardCase, IdenticalMeshesInOnePose) {
     EXPECT_EQ(
         ask(mesh, at({1, 2, 3}, kStill, {1, 0, 0}, q), mesh, at({1, 2, 3}, {1, 0, 0}, kStill, q)).status,
         Status::penetrating_at_start);
-    // As surfaces they touch all over, and cross nowhere: what is found there is anybody's choice.
+    // As surfaces they touch all over, and cross nowhere: which contact is found is arbitrary.
     const hulls::Model model = model_of(mesh, false);
     const AdvanceResult r = hulls::advance(model, at({1, 2, 3}, kStill, {1, 0, 0}, q), model,
                                            at({1, 2, 3}, {1, 0, 0}, kStill, q), {});
@@ -577,7 +577,7 @@ TEST(MeshHardCase, ALimitIsNotAMiss) {
   EXPECT_EQ(ask(link, a, wheel, b, {.max_iterations = 1}).status, Status::unresolved);
 }
 
-// --- What the present code gets wrong: to be enabled once it does not ---
+// --- What the present code gets wrong: disabled until it is right ---
 
 // One vertex of each component is asked whether it lies inside, even if it lies on the surface: there the
 // winding number is 1/2 and rounding decides, in a crook it is 3/4, and a nanometre below the surface it

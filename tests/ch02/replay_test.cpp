@@ -214,8 +214,8 @@ TEST(HierarchyReplay, RefusesABodyThatTurnsFreely) {
   EXPECT_EQ(refused_rows(q), std::vector{-1});
 }
 
-// Between half the tolerance and the tolerance a gap at the start is neither advanced nor far: such a pair
-// once waited at t = 0 for ever.
+// Between half the tolerance and the tolerance a gap at the start is neither advanced nor far: such a pair must not
+// wait at t = 0 for ever.
 TEST(HierarchyReplay, ToleranceOfTheBodiesSize) {
   ca::AdvanceOptions options;
   options.certificate = true;

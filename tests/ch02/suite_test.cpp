@@ -14,7 +14,7 @@ constexpr std::uint64_t kShare = 1;
 #endif
 constexpr std::uint64_t kSeed = 20080102;
 
-// Each story for itself would prepare all shapes again, so stories come together, mesh kinds one by one.
+// Each story alone would prepare all shapes again, so stories run together, and mesh kinds one by one.
 class Ch02Suite : public testing::TestWithParam<suite::Kind> {};
 
 TEST_P(Ch02Suite, HoldsForEveryStoryAndEveryOtherKind) {
@@ -36,7 +36,7 @@ TEST_P(Ch02Suite, HoldsForEveryStoryAndEveryOtherKind) {
       starts += v.status == Status::touching_at_start || v.status == Status::penetrating_at_start;
     }
   EXPECT_LE(100 * undecided, all) << "the reference should be able to tell in 99 % of the queries";
-  // The queries are worth asking: none of the answers is rare.
+  // The queries are worth running: none of the answers is rare.
   if (kShare == 1) {
     EXPECT_GE(20 * std::min({contacts, separated, starts}), all);
   }

@@ -1,4 +1,4 @@
-// The clear Dantzig against the fast one, and the solver that stands before a piece.
+// The clear Dantzig against the fast one, and the checks of the solver that runs on a piece.
 #include <gtest/gtest.h>
 
 #include "ch03_impulse_lcp/clear/solver.hpp"

@@ -43,7 +43,7 @@ TEST_P(DantzigFamilies, FindsThePlantedAnswerOrTheCertificate) {
 INSTANTIATE_TEST_SUITE_P(All, DantzigFamilies, testing::ValuesIn(kFamilies),
                          [](const auto& family) { return std::string(name(family.param)); });
 
-// Among 200 seeds of each size, those that a version of Dantzig's method once gave up on.
+// Regression cases: of 200 seeds of each size, those that Dantzig's method once gave up on.
 TEST(DantzigInfeasible, CertificatesThatWereOnceMissed) {
   struct Missed {
     Eigen::Index n;

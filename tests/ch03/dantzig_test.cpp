@@ -86,7 +86,7 @@ TEST(Dantzig, ProvesThatThereIsNoSolution) {
 }
 
 TEST(Dantzig, DoesNotTakeRoundOffInTheVectorForAProof) {
-  // Held between two walls: the rows must add up to zero, and miss it by round-off.
+  // Held between two walls: the rows must add up to zero, and fail to do so by round-off.
   const LcpResult result = solve_dantzig({MatX{{1, -1}, {-1, 1}}, VecX{{-1, 1 - 2e-16}}});
   EXPECT_EQ(result.status, Status::solved);
 }
@@ -97,7 +97,7 @@ TEST(Dantzig, RefusesMatricesThatItIsNotMadeFor) {
   EXPECT_EQ(solve_dantzig({MatX{{0, 1}, {1, 0}}, VecX{{-1, -1}}}).status, Status::unsuited);
 }
 
-// The proof holds for any matrix, so it may be found before the matrix is found out.
+// The proof is valid for any matrix, so it may be found before the kind of matrix is known.
 TEST(Dantzig, ProvesThatAnIndefiniteProblemHasNoSolution) {
   EXPECT_EQ(solve_dantzig({MatX{{1, -2}, {-2, 1}}, VecX{{-1, -1}}}).status, Status::no_solution);
   EXPECT_EQ(solve_dantzig({MatX{{1, -2}, {-2, 1}}, VecX{{1, -1}}}).status, Status::no_solution);

@@ -65,7 +65,7 @@ TEST(DelassusOperator, IsTheMatrixWithoutItsEntries) {
     VecX v;
     product.apply(z, v);
     EXPECT_LE((v - A * z).lpNorm<Eigen::Infinity>(), 1e-13 * (A.cwiseAbs() * z.cwiseAbs()).maxCoeff());
-    product.apply(VecX::Zero(A.rows()), v);  // nothing is left of the last one
+    product.apply(VecX::Zero(A.rows()), v);  // nothing is left of the previous problem
     EXPECT_EQ(v, VecX(VecX::Zero(A.rows())));
     EXPECT_LE((product.diagonal() - A.diagonal()).lpNorm<Eigen::Infinity>(), 1e-14 * A.maxCoeff());
   }

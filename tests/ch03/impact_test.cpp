@@ -51,8 +51,8 @@ TEST(Impact, OfABallOnAWallTurnsTheNormalVelocity) {
   EXPECT_EQ(result.impulses[0].impulse, 4.5);
 }
 
-// n equal balls, one arrives, e = 1, all contacts at once: v1 = -(n - 2)/n, the others 2/n. The toy does
-// otherwise; this law is known to, see the text.
+// n equal balls, one arrives, e = 1, all contacts at once: v1 = -(n - 2)/n, the others 2/n. The toy behaves
+// differently; this is a known limit of the law, see the text.
 TEST(Impact, OfNewtonsCradleSharesTheMomentum) {
   for (const int n : {2, 3, 4, 5, 10}) {
     std::vector<RigidBody> bodies{ball({0, 0, 0}, {1, 0, 0})};
@@ -80,7 +80,7 @@ TEST(Impact, IsSymmetric) {
   expect_velocities(bodies, {-1, 0, 1});
 }
 
-// Both balls arrive at (2, 0): the one at the wall must not gain what the other lost twice over.
+// Both balls arrive at (2, 0): the one at the wall must not gain more than the other lost.
 TEST(Impact, OfABallOnABallAtAWallKeepsTheEnergy) {
   std::vector<RigidBody> bodies{ball({0, 0, 0}, {2, 0, 0}), ball({1, 0, 0}, {0, 0, 0}), wall()};
   const ImpactResult result = resolve_impact(bodies, row_of_contacts(2, 1));

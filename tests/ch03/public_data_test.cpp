@@ -38,8 +38,8 @@ bool beyond(const std::string& name) {
   return names.contains(name);
 }
 
-// What has a solution and a matrix of the method's class must be solved, the real contact problems with their
-// slightly asymmetric matrices too; everything else must end in a status that says so.
+// Problems that have a solution and a matrix of the method's class must be solved, and so must the real contact
+// problems with their slightly asymmetric matrices; all others must end in a status that says so.
 void check(const fs::path& base) {
   const MatX A = read_matrix_market(base.string() + ".A.mtx");
   const VecX b = read_matrix_market(base.string() + ".b.mtx");

@@ -155,8 +155,8 @@ Small small_problem(bool symmetric) {
   return {A, b};
 }
 
-// Lemke's method decides every problem with a positive semidefinite matrix, and interior points most: whoever
-// claims anything agrees with the trial of every active set.
+// Lemke's method decides every problem with a positive semidefinite matrix, and interior points most: a method that
+// claims an answer agrees with the trial of every active set.
 RC_GTEST_PROP(SolversRandom, AgreeWithEnumeration, ()) {
   const Small p = small_problem(true);
   const auto truth = brute_force(p.A, p.b, 1e-9);
@@ -253,7 +253,7 @@ TEST(MethodNames, AreReadBack) {
   EXPECT_THROW(method_named("gauss"), std::invalid_argument);
 }
 
-// Whoever says that there is no solution hands over the proof, and anyone can multiply it.
+// A method that reports no solution returns the proof, which is checked by multiplication.
 TEST_P(EveryMethod, NoSolutionComesWithItsCertificate) {
   std::vector<std::pair<MatX, VecX>> problems = {{MatX{{1, -1}, {-1, 1}}, VecX{{-2, 1}}},
                                                  {MatX{{1, -1}, {-1, 1}} * 1e-8, VecX{{-2, 1}} * 1e5},

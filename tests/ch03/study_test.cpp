@@ -83,7 +83,7 @@ TEST_F(StudyTables, CurvesFallToAnAnswer) {
   }
 }
 
-// A method that is another one under its name would take the same work everywhere.
+// A method that is secretly another one would need the same work everywhere.
 TEST_F(StudyTables, MethodsAreDifferent) {
   const fc_test::Table t = table("profiles.csv");
   std::map<std::string, std::map<std::string, double>> work;  // method, problem

@@ -43,7 +43,7 @@ TEST(Kinematic, APistonPushesABall) {
   EXPECT_LE(gain, 0);
 }
 
-// What cannot be is said, not guessed: a ball between a piston and a wall that do not give way.
+// What is impossible is reported, not guessed: a ball between a piston and a wall that do not give way.
 TEST(Kinematic, ASqueezeIsReported) {
   auto world = make_world(
       "step: {dt: 0.01, duration: 1}\nshapes:\n  ball: {sphere: {radius: 0.5}, mass: 2}\n"
@@ -65,7 +65,7 @@ TEST(Kinematic, ASqueezeIsReported) {
   }
 }
 
-// Kinematic and static bodies pass through each other: nobody can yield.
+// Kinematic and static bodies pass through each other: neither can give way.
 TEST(Kinematic, IsNotQueriedAboutWhatCannotYield) {
   auto world = make_world(piston +
                           "  - {shape: wall, static: true, position: [2, 0, 0]}\n"
@@ -241,8 +241,8 @@ TEST(Rotation, IsDerived) {
       make_world(head + "  - {shape: ball}\n  - {shape: box, position: [3, 0, 0]}\n").effects.rotation);
 }
 
-// A neutral value of an effect moves every body along the same path, bit by bit; and the effect's absence, as
-// ever, computes nothing of it.
+// An effect with a neutral value moves every body along the same path, bit by bit; an effect that is absent computes
+// nothing, as always.
 TEST(Off, NeutralEffectsChangeNoBit) {
   const std::string things =
       "step: {dt: 0.01, duration: 1}\nrestitution: 0.5\nshapes:\n  block: {box: {size: [1, 0.8, 0.6]}, mass: "

@@ -1,5 +1,5 @@
-// A world that runs on the clear versions of chapters 1 to 4, against the same world as ever; and the program with --clear and
-// --mine.
+// A world that runs on the clear versions of chapters 1 to 4, against the same world on the fast ones; and the program
+// with --clear and --mine.
 #include "ch04_multibody_stepping/on_pieces.hpp"
 #include "events.hpp"
 #include "support/gallery.hpp"
@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 const fs::path scenes = FC_SOURCE_DIR "/chapters/ch04_multibody_stepping/scenes";
 
-// The impacts of a scene's first frames: on pieces, or as ever.
+// The impacts of a scene's first frames, on pieces or on the fast versions.
 Events impacts_of(const std::string& name, int frames, bool on_pieces, fc::world::World& world) {
   static const fc::world::clear::Pieces pieces;
   const fc::Scene scene = fc::read_scene({scenes / (name + ".yaml"), {}, {}, 4});

@@ -1,5 +1,5 @@
-// Every scene of the gallery through the executable: what it wrote is read back, and no two bodies overlap in
-// any frame, says a second opinion. Also: laws that hold whatever the scene.
+// Every scene of the gallery through the executable: its output is read back, and the independent overlap check finds
+// no overlap in any frame. Also: laws that hold in every scene.
 #include <nlohmann/json.hpp>
 
 #include "support/gallery.hpp"
@@ -54,7 +54,7 @@ TEST_P(Gallery, NothingOverlapsInAnyFrame) {
 INSTANTIATE_TEST_SUITE_P(Scenes, Gallery, testing::ValuesIn(gallery()),
                          [](const auto& file) { return file.param.stem().string(); });
 
-// The second opinion can tell.
+// The independent overlap check can detect an overlap.
 TEST(GalleryCheck, FindsAnOverlap) {
   const Rounded ball = rounded_ball(0.5), rod = rounded_rod(0.2, 1), block = rounded_block({1, 1, 1});
   const Rounded hull = rounded_hull({{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}});

@@ -39,7 +39,7 @@ INSTANTIATE_TEST_SUITE_P(Powers, Galperin,
                                          std::pair{3, 3141}, std::pair{4, 31415}),
                          [](const auto& power) { return "N" + std::to_string(power.param.first); });
 
-// A hundred thousandth of a second decides: what stands on the path is hit, however fast and thin.
+// A hundred thousandth of a second decides: bodies on the path are hit, however fast and thin they are.
 TEST(Bullets, NoneOfAThousandPassesTheWall) {
   std::mt19937_64 engine(1);
   std::uniform_real_distribution<double> any(-1, 1);
@@ -84,7 +84,7 @@ TEST(Bullets, ThatMeetEachOtherDoNotPass) {
   for (int i = 0; i < 200; ++i) EXPECT_NEAR(body(world, i).velocity.x(), i % 2 == 0 ? -500 : 500, 1e-9) << i;
 }
 
-// The closed form of two balls against the search, which knows nothing of it: a capsule of no length worth
+// The closed form of two balls against the search, which does not use it: a capsule of almost no length.
 // the name.
 TEST(Balls, MeetWhenTheSearchSaysSo) {
   std::mt19937_64 engine(3);

@@ -27,12 +27,12 @@ const std::string shapes =
 
 TEST(Overlap, AtTheStartIsRefusedWithTheBodysLine) {
   EXPECT_EQ(refusal(shapes + "  - {shape: ball, position: [0.9, 0, 0]}\n"),
-            "scene.yaml:7:5: bodies 0 and 1 overlap at the start: along (1, 0, 0) they do by 0.1 m, more "
+            "scene.yaml:7:5: bodies 0 and 1 overlap at the start: by 0.1 m along (1, 0, 0), more "
             "than the tolerance of 1e-06 m; move them apart");
   EXPECT_EQ(
       refusal(shapes +
               "  - {shape: ball, position: [5, 0, 0]}\n  - {shape: ball, position: [0, 0.999998, 0]}\n"),
-      "scene.yaml:8:5: bodies 0 and 2 overlap at the start: along (0, 1, 0) they do by 2e-06 m, more than "
+      "scene.yaml:8:5: bodies 0 and 2 overlap at the start: by 2e-06 m along (0, 1, 0), more than "
       "the tolerance of 1e-06 m; move them apart");
 }
 
@@ -43,7 +43,7 @@ TEST(Overlap, UpToTheToleranceIsATouch) {
 
 TEST(Overlap, OfABallInsideABoxIsRefused) {
   EXPECT_EQ(refusal(shapes + "  - {shape: cube, position: [0.1, 0, 0]}\n"),
-            "scene.yaml:7:5: bodies 0 and 1 overlap at the start: along (1, 0, 0) they do by 2.4 m, more "
+            "scene.yaml:7:5: bodies 0 and 1 overlap at the start: by 2.4 m along (1, 0, 0), more "
             "than the tolerance of 1e-06 m; move them apart");
 }
 
@@ -72,14 +72,13 @@ TEST(Overlap, OfBoxesIsToldWithTheShortestWayApart) {
       "step: {dt: 0.01, duration: 1}\nshapes: {box: {box: {size: [1, 1, 1]}, mass: 1}}\nbodies:\n"
       "  - {shape: box}\n";
   EXPECT_EQ(refusal(boxes + "  - {shape: box, position: [0.2, 0.1, 0.999]}\n"),
-            "scene.yaml:5:5: bodies 0 and 1 overlap at the start: along (0, 0, 1) they do by 0.001 m, more "
+            "scene.yaml:5:5: bodies 0 and 1 overlap at the start: by 0.001 m along (0, 0, 1), more "
             "than the tolerance of 1e-06 m; move them apart");
   const std::string turned = "  - {shape: box, orientation: [0.9238795325112867, 0, 0, 0.3826834323650898]";
-  EXPECT_NE(refusal(boxes + turned + ", position: [0, 0, -0.9]}\n").find("along (0, 0, -1) they do by 0.1 m"),
+  EXPECT_NE(refusal(boxes + turned + ", position: [0, 0, -0.9]}\n").find("by 0.1 m along (0, 0, -1)"),
             std::string::npos);
   // A corner of the turned box, 10 mm deep in a side.
-  EXPECT_NE(refusal(boxes + turned + ", position: [1.197106781, 0, 0]}\n")
-                .find("along (1, 0, 0) they do by 0.01 m"),
+  EXPECT_NE(refusal(boxes + turned + ", position: [1.197106781, 0, 0]}\n").find("by 0.01 m along (1, 0, 0)"),
             std::string::npos);
 }
 

@@ -226,7 +226,7 @@ RC_GTEST_PROP(TorqueFree, BoundsHold, ()) {
     RC_ASSERT(spin.norm() <= free.spin_bound());
     RC_ASSERT(n.cross(spin).norm() <= free.turning_bound(n));
     RC_ASSERT(axis.cross(spin).norm() <= free.turning_bound(axis));
-    // What the difference of almost equal moments loses is of the check, not of the bound.
+    // The check loses digits in the difference of almost equal moments; the bound does not.
     RC_ASSERT(change <= free.spin_change_bound() + 64 * eps * free.spin_bound() * free.spin_bound());
   }
   // By the textbook's formula, and never worse than it.

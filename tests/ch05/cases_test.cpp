@@ -1,4 +1,4 @@
-// Scenes that once went wrong, each with its right answer.
+// Regression cases: scenes with their right answers.
 #include <gtest/gtest.h>
 
 #include "oracles.hpp"
@@ -31,7 +31,7 @@ constexpr double kSlower = 30;  // than without sanitizers
 #else
 constexpr double kSlower = 1;
 #endif
-constexpr double kTooSlow = 5;  // s, of a frame: no need to see the rest
+constexpr double kTooSlow = 5;  // s, of a frame: beyond it the rest need not be run
 
 // Steps the simulation and watches.
 Laws follow(Simulation& sim, double seconds, const std::function<void()>& look = {}) {
@@ -113,7 +113,7 @@ std::string chain(int links, double slack, const std::string& envelope, bool bot
   return text;
 }
 
-// Until the slack is used up and the pull travels along the chain every link falls freely, and nothing drives it.
+// Until the slack is used up and the pull travels along the chain every link falls freely, and no force acts on it.
 TEST(Cases, ChainHeldBack) {
   for (const char* envelope : {"5.0e-4", "3.0e-3"}) {
     Simulation sim(chain(30, 5e-4, envelope, false, 40, 40), 0.01);
@@ -152,7 +152,7 @@ TEST(Cases, ChainOfCoarseLinks) {
   expect_free_fall_of_a_chain(16, 16);
 }
 
-// Whether the two impacts are taken one after another or together: no energy is lost or made.
+// The two impacts may be taken one after another or together: no energy is lost or made.
 TEST(Cases, ElasticPartingPair) {
   Simulation sim(head(0.01, "1.0e-3", "restitution: 1\n") + floor_shape +
                      "  ball: {sphere: {radius: 0.5}, mass: 1}\n" + floor_body +
@@ -248,7 +248,7 @@ const Plates pressing = {1 / 60.0,
                          "[-1.0, -1.06, 0.76, -0.25]",
                          "[-4.04, -2.54, -31.3]"};
 
-// Nothing acts from outside: whatever the two plates do to each other, their common centre of mass goes on.
+// Nothing acts from outside: whatever the two plates do to each other, their common centre of mass keeps its velocity.
 TEST(Cases, FrozenInFlight) {
   const Plates all[] = {pressing,
                         {1 / 30.0,
@@ -282,7 +282,7 @@ TEST(Cases, FrozenInFlight) {
     }
 }
 
-// The same without an envelope: chapter 4 may hold the two at each other, but not both in the air.
+// The same without an envelope: chapter 4 may freeze the two against each other, but not both in the air.
 TEST(Cases, HeldInFreeFlight) {
   fc::world::World world = fc::world::build_world(Simulation::read(pressing.text("")));
   const auto centre = [&] {
@@ -319,7 +319,7 @@ TEST(Cases, GravityLeftOut) {
   }
 }
 
-// What is let go in the air falls, and rests on what is below: nothing acts through air.
+// A body that is released in the air falls, and rests on what is below: no force acts across air.
 TEST(Cases, HoveringBox) {
   for (const std::string shape : {"box: {size: [1, 1, 1]}", "sphere: {radius: 0.5}"})
     for (const int count : {2, 3})
@@ -367,7 +367,7 @@ TEST(Cases, PlankOnEdgeInANarrowEnvelope) {
     }
 }
 
-// A floor of tiles side by side: what slides on it does not see the seams.
+// A floor of tiles side by side: a sliding body does not feel the seams.
 TEST(Cases, SeamOfFlushBoxes) {
   for (const std::string shape : {"box: {size: [0.8, 0.6, 0.4]}", "sphere: {radius: 0.2}"})
     for (const double air : {0.0, 1e-9, 1e-7, 4e-7, 9e-7, 2e-6, 2.5e-4}) {

@@ -21,7 +21,7 @@ using fc::Vec3;
 using fc::resting::ClearResting;
 using fc::resting::Resting;
 
-// What the laws say of a frame, at its worst.
+// The laws in a frame: the worst violation of each.
 struct Laws {
   double newton = 0;  // of each body, as a share of the momenta that took part
   double rise =
@@ -35,7 +35,7 @@ struct Laws {
   int impacts = 0;  // points at which something met
 };
 
-// One of the two versions at work.
+// One of the two versions.
 template <class Planner>
 struct Watched {
   fc::world::World world;
@@ -146,8 +146,8 @@ int from_environment(const char* name, int otherwise) {
   return asked ? std::atoi(asked) : otherwise;
 }
 
-// What of the laws does not hold; nothing, if all is well. The energy may rise by the error of second order that a plan makes,
-// as every step does (its frames are up to 30 ms long here, and turn bodies by up to a tenth of a radian).
+// The laws that are violated; empty if all is well. The energy may rise by the error of second order that a plan makes,
+// as every step does (frames are up to 30 ms long here, and turn bodies by up to a tenth of a radian).
 std::string broken(const Laws& w) {
   constexpr double kSecondOrder = 5e-4;
   std::string faults;
@@ -244,7 +244,7 @@ std::vector<Smooth> smooth_scenes() {
        {std::pair("slope", 5e-6), std::pair("stack", 5e-6), std::pair("valley", 0.01),
         std::pair("turned", 5e-6), std::pair("islands", 5e-4), std::pair("one_frame", 5e-4)})
     list.push_back({name, fc::read_scene({gallery(name), {}, {}, 5}), apart, 1e-6});
-  // Bodies that hit corners part ways: in half a second they do so by little.
+  // Bodies that hit corners diverge: in half a second they do so only a little.
   list.push_back({"knocked",
                   fc::read_scene({gallery("knocked"), {"step.duration=0.4666666666666667"}, {}, 5}), 5e-3,
                   1e-2});
@@ -312,8 +312,8 @@ TEST(Clear, GoesWhereTheFastVersionGoes) {
   }
 }
 
-// What lies does not bounce, although each plan ends with half of gravity's speed, faster than margin / dt; nor does it hop when
-// something hits it.
+// A resting body does not bounce, although each plan ends with half of gravity's speed, faster than margin / dt; nor
+// does it hop when something hits it.
 TEST(Clear, WhatLastsIsNoImpact) {
   Both stack(fc::read_scene({gallery("stack"), {"restitution=0.5", "step.duration=0.3"}, {}, 5}));
   stack.run(18);
@@ -329,7 +329,7 @@ TEST(Clear, WhatLastsIsNoImpact) {
   EXPECT_GT(hit.clear.worst.impacts, 0);
 }
 
-// FC_SCENES=1000 runs so many; FC_FIRST=n begins with seed n.
+// FC_SCENES=1000 runs that many; FC_FIRST=n begins with seed n.
 TEST(Clear, KeepsTheLawsInRandomScenes) {
   const int first = from_environment("FC_FIRST", 1), count = from_environment("FC_SCENES", 20);
   for (int seed = first; seed < first + count; ++seed) {
@@ -346,7 +346,7 @@ TEST(Clear, KeepsTheLawsInRandomScenes) {
   }
 }
 
-// Piles take it long: only as many frames as a test has time for, and chapter 3's fast method.
+// Piles take long: only as many frames as a test has time for, and chapter 3's fast method.
 TEST(Clear, KeepsTheLawsInTheGallery) {
   fc::resting::clear::Pieces pieces;
   pieces.world.lcp.dantzig = [](const fc::MatX& A, const fc::VecX& b, int) { return fc::lcp::solve({A, b}); };
@@ -401,10 +401,10 @@ TEST(ClearProgram, RefusesInALine) {
   for (const auto& [scene, options, what] :
        {std::tuple("bowl", "--clear", "meshes"),
         std::tuple("stack", "--clear --set sleep.after=1 --set sleep.speed=0.1", "sleep"),
-        std::tuple("stack", "--clear --set solver.method=pgs", "another solver")}) {
+        std::tuple("stack", "--clear --set solver.method=pgs", "solvers other")}) {
     const auto outcome = run_program(scene, options, out);
     EXPECT_EQ(outcome.exit_code, 2) << what;
-    EXPECT_NE(outcome.err.find(std::string("the clear version does without ") + what), std::string::npos)
+    EXPECT_NE(outcome.err.find(std::string("the clear version does not handle ") + what), std::string::npos)
         << outcome.err;
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
   }

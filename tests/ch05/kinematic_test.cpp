@@ -1,4 +1,4 @@
-// Impacts on what rests, and kinematic bodies that go into others.
+// Impacts on resting bodies, and kinematic bodies that run into others.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@ namespace {
 
 using namespace fc_test;
 
-// A kinematic plate pushes two boxes against a wall, and cannot: nobody is run through, neither by the exact
-// solution nor in a pile, and what the plate does meanwhile is reported.
+// A kinematic plate pushes two boxes against a wall, which is impossible: no box is run through, neither by the exact
+// solution nor in a pile, and the plate's work is reported.
 TEST(KinematicBody, APlateThatCannotGoOnIsStopped) {
   for (const double most_work : {2e5, 0.0}) {
     Simulation s(
@@ -32,8 +32,8 @@ TEST(KinematicBody, APlateThatCannotGoOnIsStopped) {
   }
 }
 
-// A box at rest is hit from the side: it slides away, and stays down. The half of its weight that an instant still has to give is
-// no impact, and does not bounce.
+// A box at rest is hit from the side: it slides away, and stays down. The half of its support that an instant still has
+// to give is no impact, and does not bounce.
 TEST(Impact, WhatRestsDoesNotHop) {
   for (const double restitution : {0.0, 0.5, 1.0}) {
     Simulation s(
@@ -56,8 +56,8 @@ TEST(Impact, WhatRestsDoesNotHop) {
   }
 }
 
-// Nothing stops a kinematic body that goes into what cannot give way: that is reported, once, with the time. One that slides along
-// such a body, as on a floor, goes into nothing.
+// Nothing stops a kinematic body that runs into a body which cannot give way: this is reported once, with the time. One
+// that slides along such a body, as on a floor, does not run into it.
 TEST(KinematicBody, IntoWhatCannotGiveWayIsReported) {
   Simulation s(
       "step: {dt: 0.01, duration: 1}\nenvelope: 5.0e-4\nshapes:\n  box: {box: {size: [1, 1, 1]}, mass: 2}\n"
@@ -86,7 +86,7 @@ TEST(KinematicBody, IntoWhatCannotGiveWayIsReported) {
   EXPECT_NEAR(reported[1].time, 1.0095, 1e-5);
 }
 
-// Times are those of the frame, though a row of a path cuts it in parts.
+// Times are those of the frame, although a row of a path divides it into parts.
 TEST(KinematicBody, IsReportedInTimeOfTheFrame) {
   const auto file = scratch("kinematic") / "path.csv";
   std::ofstream(file)

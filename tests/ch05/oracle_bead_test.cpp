@@ -13,7 +13,7 @@ using fc::Vec3;
 using independent::Vec;
 
 constexpr double kGravity = 10, kRadius = 1, kEnvelope = 4e-4;  // m/s^2, m, m
-constexpr double kGap = 0.5 * kEnvelope;                        // m, at which what rests stands
+constexpr double kGap = 0.5 * kEnvelope;                        // m, the gap of resting bodies
 
 std::string head(const std::string& shapes) {
   return "step: {dt: 0.01, duration: 1}\ngravity: [0, 0, -10]\nenvelope: " + number(kEnvelope) +

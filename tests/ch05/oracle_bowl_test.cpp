@@ -7,9 +7,9 @@ namespace {
 
 using namespace fc_test;
 
-// The bunny falls beside the middle of a bowl, slides and tumbles. Whatever it does: nothing overlaps in any
-// frame, no time is lost, and no frame has more energy than the one before, but for what the correction of
-// gaps adds and reports. (Constant spin between impacts keeps the kinetic energy, too.)
+// The bunny falls beside the middle of a bowl, slides and tumbles. Whatever it does: nothing overlaps in any frame, no
+// time is lost, and no frame has more energy than the one before, except for what the correction of gaps adds and
+// reports. (Constant spin between impacts conserves the kinetic energy, too.)
 TEST(Bunny, InABowl) {
   FC_SKIP_WITHOUT_THE_BUNNY();
   const std::filesystem::path scenes = FC_SOURCE_DIR "/chapters/ch05_resting_contact/scenes";

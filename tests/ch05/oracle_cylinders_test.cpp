@@ -34,9 +34,8 @@ std::string prism_text() {
   return "  prism: {hull: {points: [" + text + "]}, density: 500}\n";
 }
 
-// The second opinion on all pairs of a world: a plane across a normal of a prism's sides, or across an axis
-// of the world, that parts the two proves that they are apart; for pairs that have none of these the slow
-// test decides.
+// The independent overlap check on all pairs of a world: a plane across a normal of a prism's sides, or across an axis
+// of the world, that separates the two proves that they are apart; pairs that have none of these get the slow test.
 class Judge {
  public:
   explicit Judge(const fc::Scene& scene) : scene_(scene) {

@@ -1,4 +1,4 @@
-// Gaps are put right by positions alone, also of bodies that turn by Euler's equations.
+// Gaps are corrected by positions alone, also for bodies that turn by Euler's equations.
 #include <gtest/gtest.h>
 
 #include "oracles.hpp"
@@ -8,9 +8,8 @@ namespace {
 using namespace fc_test;
 using fc::Vec3;
 
-// A box that turns on the floor about the vertical and stands a tenth of a milliradian askew is lifted and
-// turned into the envelope's middle, and no velocity hears of it: it goes on turning about the vertical
-// alone.
+// A box that turns on the floor about the vertical and stands a tenth of a milliradian askew is lifted and turned to
+// the rest gap, without any change of velocity: it goes on turning about the vertical alone.
 TEST(Gyroscopic, GapsArePutRightByPositionsAlone) {
   for (const std::string turns : {"", "gyroscopic: true\n"})
     for (const double dt : {1 / 60.0, 1 / 120.0, 1 / 240.0}) {

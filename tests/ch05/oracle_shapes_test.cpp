@@ -1,5 +1,5 @@
-// Cylinders, cones, compounds, guided bodies and paths inside the envelope: what rests stays, what rolls or
-// slides keeps its speed, what is carried goes along.
+// Cylinders, cones, compounds, guided bodies and paths inside the envelope: resting bodies stay, rolling or sliding
+// bodies keep their speed, bodies on a lift or belt go along.
 #include <gtest/gtest.h>
 
 #include "oracles.hpp"
@@ -78,7 +78,7 @@ TEST(Shapes, AGuidedCubeSlidesDownItsWireAndRests) {
   EXPECT_EQ(sim.body(1).position.x(), 0);
   EXPECT_NEAR(sim.body(1).position.y(), 1, 1e-9);
   EXPECT_NEAR(sim.body(1).position.z(), 0.1, 2 * kEnvelope);
-  EXPECT_EQ(sim.body(2).position, Vec3(3, 0, 0.5));  // nothing holds it but what is fixed
+  EXPECT_EQ(sim.body(2).position, Vec3(3, 0, 0.5));  // nothing holds it but its fixed degrees of freedom
 }
 
 TEST(Shapes, ALiftCarriesACubeAlongItsPath) {

@@ -9,8 +9,8 @@
 
 namespace fc_test {
 
-// s: the frames of the oracles that take longest. Sanitizers look at the longest frame alone: at the same code, in a seventh
-// of the time; what the others must give is asked for without sanitizers.
+// s: the frames of the oracles that take longest. Sanitizers run only the longest frame: the same code, in a seventh of
+// the time; the results for the other frames are tested without sanitizers.
 #ifdef FC_SANITIZED
 inline const std::vector<double> kFrames = {1 / 60.0};
 #else

@@ -56,7 +56,7 @@ struct Random {
   Quat rotation() { return Quat(1.5 * (*this)(), (*this)(), (*this)(), (*this)()).normalized(); }
 };
 
-// Places B beside A, along a random direction, with about the gap that is wanted.
+// Places B beside A, along a random direction, at about the wanted gap.
 bool place(fc::world::World& world, Random& random, double gap) {
   fc::RigidBody &a = world.bodies[0].state, &b = world.bodies[1].state;
   a.position = random.vector();
@@ -74,8 +74,8 @@ bool place(fc::world::World& world, Random& random, double gap) {
   return distance(world, a.pose(), b.pose()) < 2 * gap;
 }
 
-// The smallest gap of a manifold is the distance; its plane parts the two; every point lies on both surfaces'
-// sides of it.
+// The smallest gap of a manifold is the distance; its plane separates the two; every point lies on both surfaces' sides
+// of it.
 TEST(Manifold, HasTheDistance) {
   Random random(7);
   const char* const shapes[] = {"box", "slab", "pill", "ball", "wedge"};
@@ -123,7 +123,7 @@ TEST(Manifold, OctagonOfTwoSquares) {
   }
 }
 
-// Whatever is called clear is clear, at two hundred times in between; what is not comes as near as that.
+// Whatever is called clear is clear, at two hundred times in between; other pairs come as near as the answer says.
 TEST(Path, ProvesOnlyWhatIsClear) {
   Random random(11);
   const double dt = 1 / 60.0, required_gap = 1e-4;
@@ -160,7 +160,7 @@ TEST(Path, ProvesOnlyWhatIsClear) {
       EXPECT_LE(gap_at(verdict.time), 1.3 * required_gap) << "trial " << trial;
       ++reached;
     }
-    // Planes alone prove less; but what they do prove, until that time, is clear.
+    // Planes alone prove less; but what they prove, up to that time, is clear.
     const auto planes = fc::resting::check_path(world, contacts, pair, path_a, path_b, dt,
                                                 {.required_gap = required_gap, .by_planes = true});
     by_planes += planes.clear;
@@ -178,8 +178,8 @@ TEST(Path, ProvesOnlyWhatIsClear) {
   EXPECT_GT(turning, kTrials / 80) << "pairs that turn fast, and together";
 }
 
-// What is known of a pair's gap from the frame before, moved on, is never more than it is; and where it says
-// so little that the path's proof would be let come near to an overlap, it is searched anew.
+// What is known of a pair's gap from the frame before, moved on, is never more than the gap; and where it says so
+// little that the path's proof would allow almost an overlap, the pair is searched again.
 TEST(Contacts, KnowSmallGapsWell) {
   Random random(5);
   const double envelope = 2e-3;

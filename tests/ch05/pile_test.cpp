@@ -80,7 +80,8 @@ double energy(const std::vector<fc::RigidBody>& bodies) {
   return sum;
 }
 
-// After many sweeps both problems are solved as Dantzig's method solves them, also from a bad guess; single precision is seen.
+// After many sweeps both problems are solved as Dantzig's method solves them, also from a bad guess, within single
+// precision.
 TEST(GaussSeidel, AgreesWithDantzig) {
   for (unsigned seed = 1; seed <= 40; ++seed) {
     const Pile pile(seed);
@@ -116,7 +117,7 @@ TEST(GaussSeidel, NeverMakesEnergy) {
   }
 }
 
-// Impulses act on both bodies with the same numbers, whatever those were found with: momentum stays.
+// Impulses act on both bodies with the same numbers, whatever their precision: momentum is conserved.
 TEST(GaussSeidel, KeepsMomentum) {
   Pile pile(7);
   pile.contacts.erase(pile.contacts.begin(), pile.contacts.begin() + 4);  // the floor's
@@ -232,7 +233,7 @@ TEST(PileList, WaitsTwiceAsLongEachTime) {
   EXPECT_FALSE(piles.is_spent(island));
 }
 
-// Heaps: nothing overlaps in any frame, says the second opinion; energy only goes down, but for what the
+// Heaps: nothing overlaps in any frame, by the independent overlap check; energy only goes down, but for what the
 // correction of gaps adds and reports.
 TEST(Heap, NothingOverlaps) {
   const std::filesystem::path scenes = FC_SOURCE_DIR "/chapters/ch05_resting_contact/scenes";

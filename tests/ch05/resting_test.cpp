@@ -35,7 +35,7 @@ TEST(Rest, ABoxStaysForTenMinutes) {
   }
 }
 
-// Each level carries all that is above it, whatever the corners' shares are.
+// Each level carries all that is above it, however the corners share it.
 TEST(Rest, StacksCarryTheirWeight) {
   for (const auto& [count, step] :
        {std::pair(10, 1 / 30.0), std::pair(10, 1 / 60.0), std::pair(10, 1 / 120.0), std::pair(50, 1 / 30.0),
@@ -97,7 +97,7 @@ TEST(Slide, DownASmoothSlope) {
   }
 }
 
-// A ball's bounces end when they do on paper, within a few frames; nothing is lost.
+// A ball's bounces end when they do on paper, within a few frames; no time is lost.
 TEST(Zeno, ABallComesToRest) {
   for (const double dt : {1 / 60.0, 1 / 120.0, 1 / 240.0}) {
     // An envelope of g dt^2 (1 - e) / 2 takes over when the bounces that are left would end within a frame.
@@ -135,8 +135,8 @@ TEST(Landing, WithoutBounceLosesNoTime) {
   EXPECT_GT(s.smallest_gap, 0);
 }
 
-// Two stacks of three: both fall asleep, and cost no row; a ball wakes the one that it falls on, and nobody
-// else; then that one sleeps again, with the ball on top. As an island, and as a pile.
+// Two stacks of three: both fall asleep, and cost no row; a ball wakes the stack that it falls on, and no other body;
+// then that one sleeps again, with the ball on top. As an island, and as a pile.
 TEST(Sleep, WakesWhoeverIsTouched) {
   for (const double most_work : {2e5, 0.0}) {
     Simulation s(
@@ -197,7 +197,7 @@ std::string short_stack(const std::filesystem::path& folder) {
          folder.string();
 }
 
-// The envelope is looked at before anything is written.
+// The envelope is checked before anything is written.
 TEST(Program, ARefusedEnvelopeLeavesTheResultsOfTheRunBefore) {
   const auto folder = scratch("kept");
   const std::string stack = short_stack(folder);
@@ -208,7 +208,7 @@ TEST(Program, ARefusedEnvelopeLeavesTheResultsOfTheRunBefore) {
   EXPECT_EQ(fc_test::contents(folder / "steps.csv"), before);
 }
 
-// The scene's solver solves resting contacts, too: what it leaves, or that it gives up, is seen.
+// The scene's solver solves resting contacts, too: its residual, or its failure, is reported.
 TEST(Program, TheScenesSolverSolvesRestingContacts) {
   const auto folder = scratch("solver");
   const std::string stack = short_stack(folder);
@@ -223,7 +223,7 @@ TEST(Program, TheScenesSolverSolvesRestingContacts) {
       << failed.err;
 }
 
-// What meets in the air falls on: nothing carries it. And a wall carries nothing.
+// Bodies that meet in the air fall on: nothing supports them. And a wall supports nothing.
 TEST(Flight, IsNotCarriedByWhatItTouches) {
   const std::string shapes =
       "step: {dt: 0.01, duration: 1}\ngravity: [0, 0, -10]\nenvelope: 5.0e-4\nrestitution: 0.5\nshapes:\n"
@@ -244,13 +244,13 @@ TEST(Flight, IsNotCarriedByWhatItTouches) {
   EXPECT_LE(wall.body(0).position.x(), 0.0011) << "m: and does not go into it";
 }
 
-// What was not solved is not called so, and nothing has moved.
+// An unsolved problem is not called solved, and nothing has moved.
 TEST(IslandSolver, SaysWhenItGivesUp) {
   std::vector<fc::RigidBody> bodies(2);
   bodies[1].position = Vec3(0, 0, 0.5);
   bodies[1].set_mass(fc::box_mass(Vec3(1, 1, 1), 1));
   bodies[1].velocity = Vec3(0, 0, -1);
-  // Pressed from both sides by what does not give way: no velocity is right.
+  // Pressed from both sides by bodies that do not give way: no velocity is right.
   const std::vector<fc::lcp::Contact> contacts = {{0, 1, Vec3::Zero(), Vec3::UnitZ()},
                                                   {0, 1, Vec3(0, 0, 1), -Vec3::UnitZ()}};
   const std::vector<double> approach_limits = {-1, -1};

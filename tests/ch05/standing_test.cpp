@@ -49,7 +49,7 @@ TEST(Standing, EndsWhenSomethingFallsOnIt) {
   EXPECT_GT(s.smallest_gap, 0);
 }
 
-// What a plan proves of a kinematic body, no other stage looks at.
+// No other stage checks what a plan proves about a kinematic body.
 TEST(Standing, EndsWhenAKinematicBodyComes) {
   Simulation s(
       two_boxes + "  - {shape: paddle, kinematic: true, position: [-3, 0, 0.6], velocity: [2, 0, 0]}\n",

@@ -1,5 +1,5 @@
-// The study: what its tables say is the same in every run but for times, and right where the answer is known;
-// and the time stepping that it compares with does what is said of it.
+// The study: its tables are the same in every run but for times, and right where the answer is known; and the time
+// stepping that it compares with behaves as described.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -25,7 +25,7 @@ TEST(MoreauJean, FallsAsItsFormulaSays) {
               0.5 + kDrop - 0.5 * kGravity * kFrame * kFrame * frames * (frames + 1), 1e-12);
 }
 
-// What touches exactly is carried exactly, and stays.
+// A stack that touches exactly is supported exactly, and stays.
 TEST(MoreauJean, CarriesAStackThatTouches) {
   const StackResult r = measure_stack({.scene = stack_scene(0), .method = Method::moreau}, 1);
   EXPECT_LE(r.force_error, 1e-11);
@@ -44,7 +44,7 @@ TEST(MoreauJean, EndsBouncesLate) {
   }
 }
 
-// Faces that overlap are seen as deep as they are, from above and from below zero.
+// The overlap of faces is measured right, from above and from below zero.
 TEST(Facing, SeesGapsOfBothSigns) {
   for (const double gap : {0.02, 1e-6, 0.0, -1e-6, -0.02}) {
     fc::world::World world = fc::world::build_world(stack_scene(0));

@@ -1,4 +1,4 @@
-// All contacts at once: what is left of the law, where sweeps take very long, and where contacts are redundant.
+// All contacts at once: the residual where sweeps take very long, and where contacts are redundant.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -48,7 +48,7 @@ TEST(AugmentedLagrangian, SolvesATowerThatSweepsDoNot) {
   EXPECT_LE(sweeps.run_together(40, 1e-12), 1e-8);
 }
 
-// Twelve corners, of which three would do.
+// Twelve corners, of which three would suffice.
 TEST(AugmentedLagrangian, DoesNotMindRedundantContacts) {
   fc::friction::ContactSweeps sweeps;
   const auto bodies = tower(3, 0);

@@ -105,7 +105,7 @@ TEST(Clear, ASceneInWhichNothingRubsIsRefusedInALine) {
   const fc_test::Outcome o =
       ran(kScenes / "slide.yaml", fc_test::scratch("refused"), "--clear --set friction=0");
   EXPECT_EQ(o.exit_code, 2);
-  EXPECT_NE(o.err.find("nothing rubs"), std::string::npos) << o.err;
+  EXPECT_NE(o.err.find("this scene has no friction"), std::string::npos) << o.err;
 }
 
 // The book's function, compiled as a learner's is, put where exercises/check.py puts those.

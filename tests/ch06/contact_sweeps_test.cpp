@@ -1,4 +1,4 @@
-// Sweeps on bodies: what they return is what is left.
+// Sweeps on bodies: the residual that they return is the true one.
 #include <gtest/gtest.h>
 
 #include "ch06_friction/contact_sweeps.hpp"

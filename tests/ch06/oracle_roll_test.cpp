@@ -1,5 +1,6 @@
-// Balls, cylinders and hoops that slip, roll, are carried and go in circles. The contact point lies in the middle of the gap h/2, so
-// the lever arm is R + h/4: closed forms hold for that to rounding, and for R to the constant times h/R that is stated.
+// Balls, cylinders and hoops that slip, roll, ride on others and go in circles. The contact point lies in the middle of
+// the gap h/2, so the lever arm is R + h/4: closed forms hold for that to rounding, and for R to the constant times h/R
+// that is stated.
 #include <gtest/gtest.h>
 
 #include "rubbing.hpp"

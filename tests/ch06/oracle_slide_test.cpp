@@ -1,4 +1,4 @@
-// A block that sticks, slides, stops, is carried and tips: closed forms, in all directions.
+// A block that sticks, slides, stops, rides on others and tips: closed forms, in all directions.
 #include <gtest/gtest.h>
 
 #include "rubbing.hpp"

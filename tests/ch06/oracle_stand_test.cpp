@@ -1,5 +1,5 @@
-// What stands by friction alone: ladders, tents, arches, drawers that jam, ropes over drums, stacks and houses of cards. Statics in
-// closed form say when; contact points lie in the middle of the gap.
+// Structures that stand by friction alone: ladders, tents, arches, drawers that jam, ropes over drums, stacks and
+// houses of cards. Statics in closed form say when; contact points lie in the middle of the gap.
 #include <gtest/gtest.h>
 
 #include "rubbing.hpp"
@@ -27,7 +27,7 @@ std::string spindle(double half, double thick = 0.02, double wide = 0.3) {
                     {0, -wide, -thick}});
 }
 
-// The largest distance that a body has gone from where it was, and the largest turn of one.
+// The largest distance that a body has moved from its start, and the largest turn of one.
 struct Drift {
   std::vector<fc::RigidBody> start;
   explicit Drift(const Rubbing& sim) {
@@ -44,7 +44,7 @@ struct Drift {
   }
 };
 
-// Steps until something has moved so far; false if nothing has after so many seconds.
+// Steps until something has moved by this much; false if nothing has after this many seconds.
 bool moves(Rubbing& sim, double seconds, double far) {
   const Drift drift(sim);
   while (sim.time() < seconds && drift.of(sim) < far) sim.step();

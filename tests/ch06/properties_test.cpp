@@ -1,4 +1,4 @@
-// What every answer has, whatever the problem: random contacts and heaps of boxes.
+// Properties of every answer, whatever the problem: random contacts and heaps of boxes.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -117,7 +117,7 @@ RC_GTEST_PROP(FrictionProperties, TheOrderOfContactsChangesNoMotion, ()) {
   has_the_same_velocities(p, T, p.mu.reverse());
 }
 
-// Painlevé's rod beside a body that has nothing to do with it: always an answer, and the one that is preferred.
+// Painlevé's rod beside an unconnected body: always an answer, and the preferred one.
 RC_GTEST_PROP(FrictionProperties, PainleveHasAnAnswerInAnyCompany, ()) {
   std::mt19937_64 random = test::random_engine();
   const OwnProblem other = random_problem(random, 2, 6, 0.5);

@@ -26,13 +26,14 @@ TEST(RandomScenesWithFriction, KeepTheLaws) {
   fc_test::expect_laws_kept(fc_test::kScenes / 2, 6, coulomb, with_friction, 5);
 }
 
-// A paddle crushes two cylinders of a kilogram against a hull of three tonnes: impulses so large that a part of them is no round-off.
+// A paddle crushes two cylinders of a kilogram against a hull of three tonnes: the impulses are so large that their
+// round-off is no small velocity.
 TEST(RandomScenesWithFriction, ACrushKeepsTheLaws) {
   fc_test::expect_laws_kept(1, 6, coulomb, with_friction, 696);
 }
 
-// 34 bodies of up to 300 t in frames of 0.23 s, as a pile: corrections of positions add up to 13 % of the energy in a frame, where
-// 2 % are allowed. They are reported; they should not be needed.
+// 34 bodies of up to 300 t in frames of 0.23 s, as a pile: corrections of positions add up to 13 % of the energy in a
+// frame, where 2 % are allowed. They are reported; they should not be needed.
 TEST(RandomScenesWithFriction, DISABLED_ManyHeavyBodiesInLongFrames) {
   fc_test::expect_laws_kept(1, 6, coulomb, with_friction, 4);
 }

@@ -20,7 +20,7 @@ template <class... Values>
 void tell(const char* text, const Values&... values) {
   if (std::getenv("FC_TELL")) fmt::print(fmt::runtime(std::string(text) + "\n"), values...);
 }
-// Of errors with the three steps: by which power of the step they fall.
+// The power of the step with which errors fall, from those of three steps.
 inline double order_of(const std::vector<double>& errors) {
   return 0.5 * std::log2(errors.front() / errors.back());
 }
@@ -144,7 +144,7 @@ class Rubbing : public Simulation {
   }
 };
 
-// The second opinion on all pairs of which one can be moved.
+// The independent overlap check on all pairs of which one can be moved.
 class Judge {
  public:
   explicit Judge(const Simulation& sim) : sim_(sim) {

@@ -1,4 +1,4 @@
-// Every method behind solve(): closed forms, statuses, and nobody's wrong answer.
+// Every method behind solve(): closed forms, statuses, and no wrong answer called solved.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ class EveryFrictionMethod : public testing::TestWithParam<Method> {
   ConeResult solve(const ConeProblem& problem, const SolveOptions& options = {}) const {
     return friction::solve(problem, GetParam(), options);
   }
-  // What only the cone's methods can do; the others must say that they did not.
+  // What only the cone's methods can solve; the others must report that they did not.
   bool knows_cones() const { return GetParam() != Method::pyramid && GetParam() != Method::boxed; }
 };
 
@@ -89,7 +89,8 @@ TEST_P(EveryFrictionMethod, NamesWhatItCannotHave) {
   EXPECT_THROW(solve({fixed, falls, mu}, {.sides = 5}), std::invalid_argument);
 }
 
-// What is called solved keeps the law, whoever found it: random contacts of any rank, one in eight without friction.
+// An answer called solved obeys the law, whichever method found it: random contacts of any rank, one in eight without
+// friction.
 TEST_P(EveryFrictionMethod, CallsNoWrongAnswerSolved) {
   std::mt19937_64 random(20080101);
   int solved = 0;
@@ -167,7 +168,7 @@ TEST(Newton, IsQuadraticNearAnAnswer) {
   EXPECT_LE(result.steps, 4);
 }
 
-// Of a problem in the plane a box is no lie.
+// In a problem in the plane box friction is exact.
 TEST(Boxed, IsExactInTheDirectionOfATangent) {
   std::mt19937_64 random(20080106);
   int solved = 0;

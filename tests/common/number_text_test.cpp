@@ -35,7 +35,7 @@ TEST(NumberText, ReadsDecimalNumbers) {
   EXPECT_EQ(value("1e3"), 1000);
   EXPECT_EQ(value("1.0E-6"), 1e-6);
   EXPECT_EQ(value("0.016666666666666666"), 1.0 / 60);
-  EXPECT_EQ(value("007.5"), 7.5);  // of a whole number with zeros before it nobody knows: eight or ten?
+  EXPECT_EQ(value("007.5"), 7.5);  // a whole number with zeros before it is ambiguous: eight or ten?
   EXPECT_EQ(value("01e1"), 10);
 }
 

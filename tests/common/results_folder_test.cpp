@@ -81,7 +81,7 @@ TEST_F(Results, OfAFailedRunAreWhatThereIs) {
   EXPECT_NE(contents(here_ / "out/summary.json").find("energy grew"), std::string::npos);
 }
 
-// What an earlier run left must not be taken for this one's; what is not a run's stays.
+// What an earlier run left must not be taken for this one's; files that belong to no run stay.
 TEST_F(Results, OfTheRunBeforeGoWhereThisOneHasNone) {
   ASSERT_EQ(shell("tiny --out out --sweep step.dt=0.1,0.5 --poses"), 0);
   EXPECT_EQ(names("out"),

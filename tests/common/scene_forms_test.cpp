@@ -49,7 +49,7 @@ TEST(SceneForms, MarksAndLineEndsChangeNothing) {
         << form;
 }
 
-// Scenes take decimal numbers: of 010 and 0x3 people and programs disagree what they are.
+// Scenes take decimal numbers: people and programs disagree about what 010 and 0x3 mean.
 TEST(SceneForms, FormsOfNumbersChangeNothing) {
   for (const std::string& three : fc_test::kThrees) {
     if (three.find_first_of("xX") == std::string::npos)

@@ -52,7 +52,7 @@ TEST(Sweep, WritesOneRowPerRunWithUnits) {
             "\"[2,2,2]\",0.5,none,\"short, but here\",none,none,3\n");
 }
 
-// The envelope that a run had is told by the name of the key that may be swept.
+// The envelope of a run is reported under the name of the key that may be swept.
 TEST(Sweep, NamesNoTwoColumnsAlike) {
   fc::Summary summary;
   summary.add("drift", 0.25, "J");

@@ -1,4 +1,4 @@
-// The demo at full size through its executable: what it writes is all that these tests know.
+// The demo at full size through its executable: these tests know only what it writes.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-// One run of the demo through its executable, and its tables as the second opinion sees them.
+// One run of the demo through its executable, and its tables for the independent overlap check.
 #pragma once
 
 #include "support/replay.hpp"

@@ -8,8 +8,8 @@ namespace {
 
 using namespace fc_test;
 
-// The largest number of node pairs that one question "when do they touch next?" may look at: the two trees
-// together have some 72,000 nodes, and brute force would look at 5e9 pairs of triangles.
+// The largest number of node pairs that one query for a pair's next contact may look at: the two trees together have
+// some 72,000 nodes, and brute force would look at 5e9 pairs of triangles.
 constexpr std::int64_t kMostNodePairs = 6000;
 
 TEST(DemoWorld, KeepsTheLawsAtEveryInstantAndNeverOverlaps) {

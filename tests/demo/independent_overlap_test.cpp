@@ -1,4 +1,4 @@
-// The second opinion, tested: it must be able to say yes, and no.
+// The independent overlap check, tested: it must be able to say yes, and no.
 #include <gtest/gtest.h>
 
 #include <random>

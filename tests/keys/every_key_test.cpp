@@ -1,5 +1,5 @@
-// The law of the table of scene keys: what a chapter's program accepts makes a difference to what it writes; all
-// else it refuses, and says where it would have one. So for the options.
+// The law of the table of scene keys: a key that a chapter's program accepts makes a difference to what it writes; all
+// others are refused, with a line that says where they would have an effect. The same for options.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -107,7 +107,7 @@ TEST_P(EveryKey, MakesADifferenceOrIsRefused) {
   }
 }
 
-// The test above is worth something: the same scene twice makes no difference.
+// The test above can fail: the same scene twice makes no difference.
 TEST_P(EveryKey, TheSameSceneWritesTheSame) {
   const Trial nothing{"name", "same", "same"};
   ASSERT_EQ(run(nothing, "same").exit_code, 0);

@@ -1,4 +1,4 @@
-// Of every scene key a scene in which it matters, and two values of it that must make a difference.
+// For every scene key a scene in which it matters, and two values of it that must make a difference.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
-// Meshes as people's tools write them: byte order marks, line ends, forms of numbers, capitals, orders of
-// elements; and what is no mesh, or has a line that nobody knows, is named for what it is.
+// Meshes as people's tools write them: byte order marks, line ends, forms of numbers, capitals, orders of elements; and
+// files that are no mesh, or have an unknown line, are refused for what they are.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

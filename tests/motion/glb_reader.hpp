@@ -1,5 +1,4 @@
-// Reads a binary glTF file back, with nothing of the writer's code, and refuses what is not as the format
-// wants it.
+// Reads a binary glTF file back, with nothing of the writer's code, and refuses any file that breaks the format.
 #pragma once
 
 #include <cmath>

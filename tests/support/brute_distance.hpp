@@ -26,7 +26,7 @@ T point_segment(const Vec<T>& p, const Vec<T>& a, const Vec<T>& b) {
   return (a + s * e - p).norm();
 }
 
-// The inside of the triangle only; its edges are somebody else's.
+// The inside of the triangle only; its edges are handled elsewhere.
 template <class T>
 T point_triangle_inside(const Vec<T>& p, const Triangle<T>& t) {
   const Vec<T> n = (t[1] - t[0]).cross(t[2] - t[0]);

@@ -1,5 +1,5 @@
-// Two moving meshes by brute force: all pairs of triangles, in long double, and proofs that hold between the
-// looks. Shares nothing with the engine but the data of a motion.
+// Two moving meshes by brute force: all pairs of triangles, in long double, and proofs that hold between the sampled
+// times. Shares nothing with the engine but the data of a motion.
 #pragma once
 
 #include <cstdint>
@@ -138,11 +138,11 @@ class BrutePair {
     return within(a_, pa, b_, pb) || within(b_, pb, a_, pa);
   }
 
-  // That the distance exceeds `floor` (m) all the time from `begin` to `end` (s). A window of time is looked
-  // at in its middle; a pair of triangles is done with if it is farther apart there than it can come in half
-  // the window: at most the largest speed between two of its points, times that. Or, which is sharper, if the
-  // vertices stay on their sides along the line that joins the nearest points; a point x moves along n by
-  // n.(v + w x x) dt, and at most |n x w| |w x x| dt^2 / 2 more. What is not done with goes on in two halves.
+  // That the distance exceeds `floor` (m) all the time from `begin` to `end` (s). Each window of time is examined in
+  // its middle. A pair of triangles is proved if it is farther apart there than it can come in half the window: at most
+  // the largest speed between two of its points, times that. Or, which is sharper, if the vertices stay on their sides
+  // along the line that joins the nearest points; a point x moves along n by n.(v + w x x) dt, and at most |n x w| |w x
+  // x| dt^2 / 2 more. Pairs that are not proved go on in two halves of the window.
   Proof prove_clear(Long begin, Long end, Long floor = 0) const {
     std::vector<Pair> all;
     for (int i = 0; i < static_cast<int>(a_.balls.size()); ++i)

@@ -9,9 +9,8 @@
 
 namespace fc::test {
 
-// The angular momentum and the world's axes stand still, so that seen from the body each obeys x' = x cross
-// w, with w_i = L_i / I_i. Taylor series of order 30 in steps of a quarter radian: a step is exact to
-// rounding.
+// The angular momentum and the world's axes are constant, so that seen from the body each obeys x' = x cross w, with
+// w_i = L_i / I_i. Taylor series of order 30 in steps of a quarter radian: a step is exact to rounding.
 template <class Real>
 struct EulerIntegrator {
   using Vec = Eigen::Matrix<Real, 3, 1>;

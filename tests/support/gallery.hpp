@@ -1,4 +1,4 @@
-// What a scene's run wrote, looked at by a second opinion: does anything overlap, in any frame?
+// The independent overlap check on what a scene's run wrote: does anything overlap, in any frame?
 #pragma once
 
 #include "demo/demo_run.hpp"
@@ -28,7 +28,7 @@ inline independent::Rounded shape_of(const fc::ShapeSpec& spec) {
   return independent::rounded_mesh(mesh);
 }
 
-// The seconds of a scene that are run: all of them, or under sanitizers so many.
+// The seconds of a scene that are run: all of them, or fewer under sanitizers.
 inline std::vector<std::string> seconds_of([[maybe_unused]] const char* sanitized) {
 #ifdef FC_SANITIZED
   return {std::string("step.duration=") + sanitized};

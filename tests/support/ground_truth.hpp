@@ -1,4 +1,4 @@
-// The first contact of two moving convex bodies, slowly and certainly: what chapter 1 is measured against.
+// The first contact of two moving convex bodies, slowly and reliably: the reference for chapter 1.
 //
 // Nothing of the library is used here. Shapes are points with disks and a rounding ball, poses are
 // quaternions, all in long double. Two arguments carry everything:
@@ -68,8 +68,8 @@ struct FirstTime {
 FirstTime first_time(const Body& a, const Body& b, Real end, Real level, Real width,
                      int most_looks = 100'000);
 
-// The smallest distance during [0, end] lies in [lower, upper] (m), at most `width` apart unless the looks
-// ran out.
+// The smallest distance during [0, end] lies in [lower, upper] (m), at most `width` apart unless the limit of samples
+// was reached.
 struct Closest {
   Real lower = -kInfinity, upper = kInfinity;
 };

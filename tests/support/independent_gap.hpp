@@ -1,5 +1,5 @@
-// A second opinion on the gap of any two shapes of a scene: balls, rods, blocks, hulls and meshes, each as
-// triangles (or a point, or a segment) with a rounding radius. Slow, plain, and nothing of the engine's.
+// An independent overlap check for any two shapes of a scene: balls, rods, blocks, hulls and meshes, each as triangles
+// (or a point, or a segment) with a rounding radius. Slow, plain, and without any code of the engine.
 #pragma once
 
 #include <optional>
@@ -26,8 +26,8 @@ Rounded rounded_mesh(const Mesh& mesh);
 // The smallest distance of two triangles, or of what is left of them; 0 if they cross.
 double distance(const std::array<Vec, 3>& a, const std::array<Vec, 3>& b);
 
-// Whether the two are at most `allowed` (m, >= 0) into each other, or apart. Of meshes: whether their
-// surfaces do not cross and neither lies inside the other.
+// Whether the two are apart, or overlap by at most `allowed` (m, >= 0). For meshes: whether their surfaces do not cross
+// and neither lies inside the other.
 bool apart(const Rounded& a, const State& at_a, const Rounded& b, const State& at_b, double allowed);
 
 }  // namespace independent

@@ -1,4 +1,4 @@
-// Meshes, rotations, motion and momenta of the second opinion.
+// Meshes, rotations, motion and momenta of the independent overlap check.
 #include <cstdio>
 #include <fstream>
 #include <iomanip>

@@ -1,6 +1,5 @@
-// A second opinion on overlaps and momenta: own mesh reader, own mass properties, own motion, own triangle
-// test. It includes nothing of the engine and uses none of its libraries, so that no mistake of the engine
-// can hide in it.
+// An independent check of overlaps and momenta: own mesh reader, own mass properties, own motion, own triangle test. It
+// includes nothing of the engine and uses none of its libraries, so that no mistake of the engine can be repeated here.
 #pragma once
 
 #include <array>
@@ -85,7 +84,7 @@ struct State {
   Vec velocity, spin, acceleration;
 };
 Vec center(const Solid& solid, const State& state);
-// The state after (or before) so many seconds of constant acceleration and spin about the centre of mass.
+// The state after (or before) this many seconds of constant acceleration and spin about the centre of mass.
 State moved(const Solid& solid, const State& state, double seconds);
 Vec velocity_at(const Solid& solid, const State& state, const Vec& point);
 
@@ -103,7 +102,7 @@ enum class How { tree, every_pair };
 bool overlap(const Solid& a, const State& at_a, const Solid& b, const State& at_b, How how = How::tree);
 // How often triangles wind around a point: 1 inside a closed surface that faces outwards, 0 outside.
 double winding(const std::vector<std::array<Vec, 3>>& triangles, const Vec& point);
-// The same of a solid's surface and a world point.
+// The same for a solid's surface and a world point.
 double winding(const Solid& solid, const State& state, const Vec& point);
 
 }  // namespace independent

@@ -1,4 +1,4 @@
-// The first contact of two moving triangle meshes, slowly and certainly: what chapter 2 is measured against.
+// The first contact of two moving triangle meshes, slowly and reliably: the reference for chapter 2.
 //
 // Nothing of the library's collision code is used here. A mesh is its triangles (a point and a segment are
 // triangles whose corners coincide), each rounded by a ball; poses are quaternions; all in long double. The

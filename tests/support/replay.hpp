@@ -1,5 +1,4 @@
-// Bodies followed between their impacts, and looked at closely: in the middle of nowhere, and just before and
-// after.
+// Bodies followed between their impacts, and examined closely: in between, and just before and after each impact.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +8,7 @@
 
 namespace independent {
 
-// All bodies from `begin` to `end` (s), nothing happening in between; `states` are those at the begin.
+// All bodies from `begin` to `end` (s), with no impact in between; `states` are those at the beginning.
 struct Segment {
   double begin = 0, end = 0;
   std::vector<State> states;

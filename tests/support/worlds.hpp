@@ -1,4 +1,4 @@
-// Worlds from a scene's text, and engine states as the second opinion sees them.
+// Worlds from a scene's text, and engine states for the independent overlap check.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ inline std::vector<independent::State> states_of(const fc::world::World& world, 
   return states;
 }
 
-// What one instant changed, in the eyes of the second opinion.
+// What one instant changed, by the independent overlap check's own sums.
 struct Jump {
   double time = 0;  // s, in the run
   independent::Totals before, after;
@@ -57,9 +57,8 @@ struct Film {
       0;  // m, the largest distance between a body just before and just after an instant
 };
 
-// Runs the world for so many frames; follows every body by own motion from one instant to the next, and looks
-// for overlaps at `samples` times in each piece. A frame in which a body was frozen is not followed inside,
-// only at its ends.
+// Runs the world for this many frames; follows every body by own motion from one instant to the next, and looks for
+// overlaps at `samples` times in each piece. A frame in which a body was frozen is examined only at its ends.
 inline Film film(fc::world::World& world, const std::vector<independent::Solid>& solids, double dt,
                  int frames, int samples, independent::How how) {
   Film film;

@@ -4,7 +4,7 @@ namespace fc::world::clear {
 
 std::vector<PieceSlot> slots(Pieces& pieces) {
   std::vector<PieceSlot> all = hulls::clear::slots(pieces.hulls);
-  // Chapter 2's search stands in the place of chapter 1's loop, and nothing here writes a certificate.
+  // Chapter 2's search replaces chapter 1's loop, and nothing here writes a certificate.
   std::erase_if(all, [](const PieceSlot& slot) {
     return slot.exercise == "ch01/ex09_advance" || slot.exercise == "ch01/ex10_certificate";
   });

@@ -1,5 +1,5 @@
-// What accuracy costs: a bouncing ball, event by event and by Moreau's time stepping; and a few tumbling
-// blocks against their own most exact run.
+// What accuracy costs: a bouncing ball, event by event and by Moreau's time stepping; and a few tumbling blocks,
+// compared with their own most accurate run.
 #include <algorithm>
 #include <cmath>
 
@@ -11,8 +11,8 @@
 namespace fc::world {
 
 // ANCHOR: moreau
-// Moreau (1988), of a ball on a floor: positions at half a step decide who is in contact; all velocities
-// change at once, with Newton's law where a contact closes in; and nobody asks when.
+// Moreau (1988), for a ball on a floor: the positions at half a step decide which bodies are in contact; all velocities
+// change at once, by Newton's law where a contact closes in. The time of contact is never computed.
 void moreau_step(double dt, double gravity, double restitution, double& height, double& speed) {
   height += 0.5 * dt * speed;
   const double free_speed = speed - gravity * dt;
@@ -141,7 +141,7 @@ double distance(const Flight& a, const Flight& b) {
   return worst;
 }
 
-// Chaos multiplies every error by some factor an impact: what is compared is short.
+// Every impact multiplies an error by some factor (chaos): so the runs compared here are short.
 void study_trajectories(const StudyOptions& options) {
   TableWriter table(
       options.out / "trajectories.csv",

@@ -9,8 +9,8 @@ int main(int argc, char** argv) {
   world::StudyOptions study;
   StudyProgram program;
   program.purpose =
-      "Measures chapter 4's step. Each part writes tables into --out; columns that end in _ns are times of "
-      "this machine, or follow from them, all others are the same in every run:";
+      "Measures chapter 4's step. Each part writes tables into --out. Columns that end in _ns are times of "
+      "this machine, or follow from them; all others are the same in every run:";
   program.example = "build/bin/ch04_study --part growth --bodies 300 --out out/ch04/study";
   program.parts = {
       {"switches", "what each effect costs, on one scene (switches.csv)",

@@ -1,5 +1,5 @@
-// The measurements behind chapter 4's figures and tables: each writes its own (the executable ch04_study).
-// Columns that end in _ns hold times of this machine, or what follows from them; all others are the same in
+// The measurements behind chapter 4's figures and tables (the executable ch04_study). Each function writes its own
+// tables. Columns that end in _ns hold times of this machine, or what follows from them; all others are the same in
 // every run.
 #pragma once
 
@@ -25,15 +25,14 @@ void study_accuracy(const StudyOptions& options);  // bounces.csv, trajectories.
 // One step of Moreau's time stepping: a ball's height above a floor (m) and its speed (m/s, up).
 void moreau_step(double dt, double gravity, double restitution, double& height, double& speed);
 
-// Of what the bodies of a gas are.
+// The shape of the bodies of a gas.
 enum class Kind { ball, block, hull };
 
-// A gas: bodies of about 1 m in a closed room that they fill to an eighth or so, elastic, on a grid at the
-// start, with random velocities of some 3 m/s, and spins of 2 rad/s if they are not balls. Six static walls
-// come first.
+// A gas: bodies of about 1 m in a closed room, of which they fill about an eighth. Elastic; on a grid at the start,
+// with random velocities of about 3 m/s, and spins of about 2 rad/s unless they are balls. Six static walls come first.
 Scene gas(Kind kind, int bodies, std::uint64_t seed);
 
-// What a run of some frames did.
+// The results of a run of several frames.
 struct Run {
   StepReport sum;           // of all frames: counts added, worst values kept
   double energy_drift = 0;  // relative, |last / first - 1|

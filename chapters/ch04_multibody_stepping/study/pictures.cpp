@@ -63,7 +63,7 @@ Scene four_balls() {
   return scene;
 }
 
-// Hands each call on to the step's own frame.
+// Passes each call on to the step's own frame.
 class Forward : public clear::Frame {
  public:
   explicit Forward(clear::Frame& frame) : frame_(frame) {}
@@ -79,7 +79,7 @@ class Forward : public clear::Frame {
   clear::Frame& frame_;
 };
 
-// Writes down what a loop does, and what is answered.
+// Records what a loop does, and the answers that it gets.
 class Tracer final : public Forward {
  public:
   Tracer(clear::Frame& frame, const World& world, TableWriter& table)
@@ -106,7 +106,7 @@ class Tracer final : public Forward {
   void row(const char* what, double now, int a, int b, double time) {
     table_.row({std::string(what), now, std::int64_t{a}, std::int64_t{b}, time});
   }
-  // The answers that pairs have got since the last call.
+  // Records the answers that pairs have got since the last call.
   void answers(double now) {
     for (int number = 0; number < world_.schedule.size(); ++number) {
       const Pair& pair = world_.schedule.pair(number);
@@ -136,7 +136,7 @@ class FirstIsland final : public Forward {
   Island& island_;
 };
 
-// A loop is a plain function, which has no room for what it is to write down.
+// A loop is a plain function, which has no place of its own for what it records.
 std::function<void(clear::Frame&)> watched;
 void watched_loop(clear::Frame& frame) {
   watched(frame);

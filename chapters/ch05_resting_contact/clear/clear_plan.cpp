@@ -7,9 +7,9 @@
 namespace fc::resting {
 namespace {
 
-constexpr int kMostRounds = 8;    // in which a plan's ends are measured again
+constexpr int kMostRounds = 8;    // of measuring a plan's ends
 constexpr int kMostProofs = 3;    // of one plan, each with more rows
-constexpr double kClosed = 1e-6;  // of the margin: how exactly contacts close at a plan's end
+constexpr double kClosed = 1e-6;  // of the margin: how exactly gaps close at a plan's end
 
 }  // namespace
 
@@ -50,7 +50,7 @@ bool ClearPlan::has_new_rows() {
 }
 
 // ANCHOR: close_ends
-// A chord method: solve, look where the bodies would stand at the end, and solve again with the gaps that they have there.
+// A chord method: solve, measure the gaps where the bodies would stand at the end, and solve again with these.
 bool ClearPlan::close_ends() {
   for (int round = 0; round < kMostRounds; ++round) {
     result = resting_step_(problem, solve_lcp_);
@@ -63,7 +63,7 @@ bool ClearPlan::close_ends() {
   return false;
 }
 
-// Where the bodies stand at the end.
+// Moves the members to where they stand at the end.
 void ClearPlan::follow_paths() {
   ends_ = result.w;
   for (int i = 0; i < std::ssize(members); ++i) {
@@ -108,7 +108,7 @@ bool ClearPlan::prove() {
   return clear;
 }
 
-// Chapter 4's gap rule for a pair on its paths in the plan: it keeps half of its gap, or of the rest gap.
+// Chapter 4's gap rule for a pair on its paths in the plan: it must keep half of its gap, or of the rest gap.
 bool ClearPlan::is_clear(int i, int j) {
   PairContacts& pair = contacts_.pair(members[i].number, members[j].number);
   if (pair.a != members[i].number) std::swap(i, j);

@@ -1,4 +1,5 @@
-// A plan of an island in the making: its rows, its ends, and the proof of its paths. In the plainest way: see clear_resting.hpp.
+// A plan of an island in the making: its rows, its ends, and the proof of its paths, in the plainest way. See
+// clear_resting.hpp.
 #pragma once
 
 #include "ch05_resting_contact/clear/resting_step.hpp"
@@ -6,28 +7,28 @@
 
 namespace fc::resting {
 
-// The members of the island, and all that no impulse moves; they stand where they are at the instant.
+// The members of the island, and the bodies that no impulse moves; at the poses of the instant.
 class ClearPlan {
  public:
   ClearPlan(const world::World& world, Contacts& contacts, clear::RestingStepFunction* resting_step,
             const clear::LcpFunction& solve_lcp, const Island& island, double now, double length);
 
-  // Whether there are rows that close_ends() has not seen yet: at first, and after a prove() that found new ones.
+  // Whether there are rows that close_ends() has not yet seen: at first, and after a prove() that found new ones.
   bool has_new_rows();
-  // Pushes and corrects, until the gaps at the plan's end are what the rows say.
+  // Pushes and corrects until the gaps at the plan's end agree with the rows.
   bool close_ends();
-  // Whether all that push are in contact, at both ends, and all paths are clear of each other. The points that a pair has at
-  // the end of paths that are not clear become rows.
+  // Whether all bodies that push are in contact at both ends, and all paths are clear of each other. Where paths are
+  // not, the points that the pair has at their ends become rows.
   bool prove();
-  // Where the plan has pushed two bodies, their points that are in contact at both ends are marked: that these close at its end
-  // is the other half of their force, and no impact.
+  // Marks the points of pushed pairs that are in contact at both ends. If such a point closes at the plan's end, this
+  // is the other half of its force, not an impact.
   void remember() const;
 
   double now, length;  // s
   std::vector<Member> members;
   clear::RestingProblem problem;  // bodies by their places among the members
   clear::RestingResult result;
-  std::vector<char> planned;  // of each member: it is pushed, or ends in contact; the others fly
+  std::vector<char> planned;  // of each member: it is pushed, or ends in contact; all others fly
 
  private:
   // A row's contact point, and its gap at the plan's end (m).
@@ -46,10 +47,10 @@ class ClearPlan {
   clear::RestingStepFunction* resting_step_;
   const clear::LcpFunction& solve_lcp_;
   std::vector<Path> paths_;      // of the members
-  std::vector<RigidBody> ends_;  // at the end of these, with velocities w
+  std::vector<RigidBody> ends_;  // where the members stand at the paths' ends, with velocities w
   std::vector<Point> points_;    // of the rows
-  int proofs_ = 0;               // up to now
-  std::ptrdiff_t known_ = 0;     // rows, at the last of them
+  int proofs_ = 0;               // so far
+  std::ptrdiff_t known_ = 0;     // rows at the last proof
 };
 
 }  // namespace fc::resting

@@ -29,7 +29,7 @@ std::vector<RigidBody> states_of(const std::vector<Member>& members) {
   return states;
 }
 
-// Faster than round-off.
+// Whether any contact closes faster than round-off.
 bool anything_closes(const std::vector<RigidBody>& bodies, const std::vector<lcp::Contact>& contacts) {
   const double rounding = lcp::approach_rounding(bodies, contacts);
   return std::any_of(contacts.begin(), contacts.end(),
@@ -41,7 +41,7 @@ void apply(std::vector<RigidBody>& bodies, const std::vector<lcp::Contact>& cont
     if (const double z = impulses[i]; z > 0) lcp::apply_impulse(bodies, contacts[i], z);
 }
 
-// What impulses did between two sets of velocities, for listeners: bodies by their numbers in the world.
+// The impulses between two sets of velocities, as records for listeners: bodies by their numbers in the world.
 std::vector<world::ImpactRecord> records_of(const std::vector<Member>& members,
                                             const std::vector<RigidBody>& before,
                                             const std::vector<RigidBody>& after,
@@ -61,8 +61,7 @@ std::vector<world::ImpactRecord> records_of(const std::vector<Member>& members,
 
 SceneFailure failure(const char* what, int rows) {
   return SceneFailure(
-      fmt::format("{} contacts that belong together {}; shorten step.dt, or take less unequal masses", rows,
-                  what),
+      fmt::format("{} connected contacts {}; shorten step.dt, or take less unequal masses", rows, what),
       "envelope");
 }
 
@@ -70,8 +69,8 @@ SceneFailure failure(const char* what, int rows) {
 struct Touching {
   std::vector<lcp::Contact> contacts;  // bodies by their places among the members
   VecX restitution;
-  std::vector<int> lasting;  // those of bodies that a plan has pushed up to now
-  double fastest = 0;        // m/s: how fast the fastest of the others comes in, < 0
+  std::vector<int> lasting;  // contacts of bodies that a plan has pushed until now
+  double fastest = 0;        // m/s: how fast the fastest of the others approaches, < 0
 };
 
 Touching touching(const World& world, const Island& island, const std::vector<RigidBody>& bodies,
@@ -105,7 +104,7 @@ ClearResting::ClearResting(const Scene& scene, World& world, double dt, const cl
       dt_(dt) {
   const auto refuse = [&](const char* what) {
     throw InputError(scene.mark("envelope").value_or(SourceMark{scene.file.string()}),
-                     fmt::format("the clear version does without {}; leave --clear and --mine out", what));
+                     fmt::format("the clear version does not handle {}; leave --clear and --mine out", what));
   };
   if (!std::all_of(world.shapes.begin(), world.shapes.end(), [](const Shape& s) { return s.convex(); }))
     refuse("meshes");
@@ -115,7 +114,7 @@ ClearResting::ClearResting(const Scene& scene, World& world, double dt, const cl
   if (world.effects.gyroscopic) refuse("gyroscopic bodies");
   const SolverSpec usual, &solver = world.solver;
   if (solver.method != usual.method || solver.limit != usual.limit || solver.tolerance != usual.tolerance)
-    refuse("another solver than chapter 3's dantzig");
+    refuse("solvers other than chapter 3's dantzig");
   world.rest_gap = 0.5 * envelope();
 }
 
@@ -129,7 +128,7 @@ ClearReport ClearResting::step(World& world, const Listeners& listeners) {
   return report_;
 }
 
-// A frame begins, a plan ends, or two bodies meet: the bodies concerned go on from there.
+// A frame begins, a plan ends, or two bodies meet: the bodies concerned get new plans.
 std::vector<int> ClearResting::begin(World& world, double dt, world::StepReport&,
                                      const Listeners& listeners) {
   dt_ = dt;
@@ -176,7 +175,7 @@ void ClearResting::report_impulses(const std::vector<world::ImpactRecord>& recor
 }
 
 // ANCHOR: step
-// An instant: the plans that it touches end, in each island nothing may close any more, and then the island gets a plan.
+// An instant: the plans of these bodies end, what closes in each island is stopped, and then the island gets a plan.
 std::vector<int> ClearResting::go_on(World& world, std::vector<int> bodies, double now) {
   islands_.begin(now);
   std::vector<int> changed;
@@ -198,7 +197,7 @@ std::vector<int> ClearResting::go_on(World& world, std::vector<int> bodies, doub
   return now < dt_ ? changed : std::vector<int>{};
 }
 
-// A plan for the island: to the frame's end, or half as long, and so on, until its paths are proved.
+// A plan for the island: to the frame's end, or half as long, and so on, until its paths can be proved.
 void ClearResting::plan(World& world, const Island& island, double now) {
   for (double length = dt_ - now; length > kShortest * (dt_ - now); length *= 0.5) {
     ClearPlan made(world, contacts_, resting_step_, solve_lcp_, island, now, length);
@@ -211,9 +210,9 @@ void ClearResting::plan(World& world, const Island& island, double now) {
 // ANCHOR_END: step
 
 // ANCHOR: instant
-// The instant's law. First what lasts stops: that it closes is the other half of the plan's force. Then (Poisson) a compression
-// stops all that closes; if something came in fast, an expansion gives back the part e of each impulse, but never more energy
-// than the compression took.
+// The instant's law. First the lasting contacts are stopped: their closing is the other half of the plan's force. Then
+// (Poisson) a compression stops all that closes. If a contact came in fast, an expansion gives back the part e of each
+// impulse, but never more energy than the compression took.
 void ClearResting::stop_what_closes(const World& world, Island& island, double now) {
   const std::vector<RigidBody> before = states_of(island.members);
   const auto [contacts, restitution, lasting, fastest] = touching(world, island, before, envelope());
@@ -244,8 +243,8 @@ void ClearResting::stop_what_closes(const World& world, Island& island, double n
 // ANCHOR_END: instant
 
 // ANCHOR: follow
-// Planned bodies go straight on with y, while their velocities change evenly from v to w and the other half of gravity. The
-// others fly.
+// Planned bodies go straight on with y, while their velocities change evenly from v to w and the other half of gravity.
+// All other bodies fly.
 void ClearResting::follow(World& world, const ClearPlan& made) {
   const auto& [solved, z, c, w, y] = made.result;
   const double length = made.length;
@@ -270,7 +269,7 @@ void ClearResting::follow(World& world, const ClearPlan& made) {
   ++report_.plans;
 }
 
-// All bodies of the plan stand where they are now; gravity and impulses have acted for their share of the time.
+// All bodies of the plan are moved to where they are now; gravity and impulses have acted for their share of the time.
 void ClearResting::end_plan_of(World& world, int body, double now, std::vector<int>& bodies) {
   const int number = world.bodies[body].plan.number;
   if (number < 0) return;

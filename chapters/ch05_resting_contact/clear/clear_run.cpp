@@ -12,7 +12,7 @@ int run_clear_scene(const Scene& scene, const RunContext& context, Summary& summ
   if (!scene.envelope)
     throw InputError(
         SourceMark{scene.file.string()},
-        "the clear version is that of resting contact; give the scene an envelope, or leave --clear and "
+        "the clear version needs resting contact; give the scene an envelope, or leave --clear and "
         "--mine out");
   std::unique_ptr<ClearResting> resting;
   ClearReport all, last;
@@ -34,7 +34,7 @@ int run_clear_scene(const Scene& scene, const RunContext& context, Summary& summ
   summary.add("envelope", resting->envelope(), "m");
   summary.add("energy added by corrections", all.correction_energy, "J");
   summary.counter("plans", all.plans, 0);
-  summary.counter("plans that were tried in vain", all.halved, 0);
+  summary.counter("plans that could not be proved", all.halved, 0);
   return code;
 }
 

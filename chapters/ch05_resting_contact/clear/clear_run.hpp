@@ -6,7 +6,7 @@
 
 namespace fc::resting {
 
-// As run_scene() of rest_run.hpp. Throws InputError for what ClearResting does not do.
+// As run_scene() of rest_run.hpp. Throws InputError for what ClearResting does not handle.
 int run_clear_scene(const Scene& scene, const RunContext& context, Summary& summary,
                     const clear::Pieces& pieces);
 

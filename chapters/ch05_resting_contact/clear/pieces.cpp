@@ -8,7 +8,7 @@ namespace fc::resting::clear {
 LcpFunction Pieces::solve_lcp() const {
   return [solver = lcp::clear::solver_of(SolverSpec{}, world.lcp)](const MatX& A, const VecX& b, VecX& z) {
     lcp::LcpResult result = solver({A, b});
-    // Many contacts of few bodies depend on each other, and round-off may win: the fast form is more patient.
+    // Many contacts of few bodies depend on each other, and round-off may prevail: the fast form tries longer.
     if (result.status == lcp::Status::limit) result = lcp::solve({A, b});
     if (result.status != lcp::Status::solved) return false;
     z = result.z;

@@ -1,4 +1,4 @@
-// Chapter 5's step in its clear form runs on a piece of its own, and on those of the chapters before.
+// Chapter 5's step in its clear form runs on a piece of its own, and on those of earlier chapters.
 #pragma once
 
 #include <vector>
@@ -13,8 +13,8 @@ struct Pieces {
   world::clear::Pieces world;                               // chapter 4's, with those before
   RestingStepFunction* resting_step = clear::resting_step;  // 5.7
 
-  // 3.6 as 5.7 is handed it. Its answers are checked: it finds what solves the problem, or nothing. Where it gives up,
-  // without a proof that there is none, chapter 3's fast method is asked.
+  // Exercise 3.6, in the form in which 5.7 gets it. Its answers are checked: it returns a solution of the problem, or
+  // none. Where it gives up without a proof that there is none, chapter 3's fast method is tried.
   LcpFunction solve_lcp() const;
 };
 // In the order of the exercises, the earlier chapters' first.

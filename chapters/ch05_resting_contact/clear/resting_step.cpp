@@ -23,11 +23,11 @@ bool push(std::vector<RigidBody>& bodies, std::span<const lcp::Contact> contacts
 
 // ANCHOR: resting_step
 RestingResult resting_step(const RestingProblem& island, const LcpFunction& solve_lcp) {
-  constexpr double kCorrect = 0.2;   // of what a gap lacks of the rest gap, so much is put right in a plan,
-  constexpr double kLeastGap = 0.5;  // and what it lacks to this part of the rest gap, at once
+  constexpr double kCorrect = 0.2;   // share of a gap's lack (to the rest gap) that a plan makes up,
+  constexpr double kLeastGap = 0.5;  // and the part of the rest gap that it reaches at once
   const double T = island.length, rest = island.rest_gap;
 
-  // What each gap may lose per second: for velocities, and for paths.
+  // How fast each gap may close: for velocities, and for paths.
   std::vector<lcp::Contact> contacts;
   VecX spare(island.rows.size()), spare_on_path(island.rows.size());
   for (std::size_t i = 0; i < island.rows.size(); ++i) {
@@ -46,7 +46,7 @@ RestingResult resting_step(const RestingProblem& island, const LcpFunction& solv
   for (std::size_t k = 0; k < result.w.size(); ++k) result.w[k].velocity += 0.5 * T * island.gravity[k];
   result.solved = push(result.w, contacts, spare, solve_lcp, result.z);
 
-  // The correction: w becomes y, which only the path follows. Where there is no room for it, gaps stay as they are.
+  // The correction: w becomes y, which only the path follows. If there is no room for it, gaps stay as they are.
   result.y = result.w;
   push(result.y, contacts, spare_on_path, solve_lcp, result.c);
   return result;

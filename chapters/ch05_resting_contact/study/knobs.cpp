@@ -1,4 +1,4 @@
-// What the width of the envelope and the length of a frame are worth, and what they cost.
+// What the width of the envelope and the length of a frame bring, and what they cost.
 #include <cmath>
 
 #include "ch05_resting_contact/study/parts.hpp"
@@ -38,7 +38,7 @@ TableWriter table_of(const std::filesystem::path& file) {
            {"heap_ns", ""}}};
 }
 
-// `narrow`: the envelope that takes over when the ball's bounces that are left would end within a frame.
+// `narrow`: the envelope that takes over when the ball's remaining bounces would end within a frame.
 void row(TableWriter& table, double h, double dt, int repeats) {
   const double narrow = 0.9 * kGravity * dt * dt * (1 - kRestitution) / 2;
   const SlopeResult slope = measure_slope(with(slope_scene(), h, dt), repeats);

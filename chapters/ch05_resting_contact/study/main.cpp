@@ -10,8 +10,8 @@ int main(int argc, char** argv) {
   resting::StudyOptions study;
   StudyProgram program;
   program.purpose =
-      "Measures chapter 5's step. Each part writes tables into --out; columns that end in _ns are times of "
-      "this machine, all others are the same in every run:";
+      "Measures chapter 5's step. Each part writes tables into --out. Columns that end in _ns are times of "
+      "this machine; all others are the same in every run:";
   program.example = "build/bin/ch05_study --part knobs --out out/ch05/study";
   program.parts = {
       {"solvers", "residual and sweeps against forces (forces.csv, heap.csv)",
@@ -22,7 +22,7 @@ int main(int argc, char** argv) {
        [&] { resting::study_methods(study); }}};
   program.all = true;
   program.add_options = [&](CLI::App& app) {
-    app.add_option("--repeats", study.repeats, "Runs of each kind: the least of their times counts")
+    app.add_option("--repeats", study.repeats, "Runs of each kind: their shortest time counts")
         ->capture_default_str()
         ->check(CLI::Range(1, 100));
   };

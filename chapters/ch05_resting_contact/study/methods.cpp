@@ -27,7 +27,7 @@ class Tables {
         histories_(out / "histories.csv",
                    {{"scene", ""}, {"method", ""}, {"t", "s"}, {"gap", "m"}, {"lost", "s"}, {"top", "m"}}),
         weights_(out / "weights.csv", {{"scene", ""}, {"method", ""}, {"force_error", ""}, {"drift", "m"}}) {}
-  // For measure_...(): one row for each frame. `top`: of the last body.
+  // For measure_...(): writes one row for each frame. `top`: of the last body.
   Look history(const char* scene, Method method) {
     lost_ = 0;
     return [this, scene, method](const world::World& world, const Frame& frame) {

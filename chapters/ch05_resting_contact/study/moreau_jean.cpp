@@ -10,9 +10,9 @@
 namespace fc::resting {
 namespace {
 
-constexpr double kPush = 0.2;  // of the smaller reach: so far two bodies are pushed apart to be looked at
-constexpr double kSlack =
-    1e-4;  // m, by which a face's plane may show a smaller gap than the best one and be taken
+constexpr double kPush =
+    0.2;  // of the smaller reach: two bodies are pushed apart this far before they are examined
+constexpr double kSlack = 1e-4;  // m, by which the gap along a face's plane may be smaller than the best one
 
 bool far_apart(const world::Bounds& a, const world::Bounds& b, double far) {
   return ((a.low - b.high).array() > far).any() || ((b.low - a.high).array() > far).any();

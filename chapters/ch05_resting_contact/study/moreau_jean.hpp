@@ -1,5 +1,5 @@
-// Velocity-level time stepping after Moreau (1988) and Jean (1999), for the study alone: what this chapter
-// would be without an envelope, and without proofs.
+// Velocity-level time stepping after Moreau (1988) and Jean (1999), for the study alone: this chapter's step without an
+// envelope and without proofs.
 #pragma once
 
 #include <limits>
@@ -13,15 +13,15 @@
 
 namespace fc::resting {
 
-// Contact points of two convex bodies, also where they overlap, and by how much: the bodies are looked at
+// Contact points of two convex bodies, also where they overlap, and how deep: the bodies are examined after being
 // pushed apart along the last normal.
 class Facing {
  public:
   // Remembers the shapes of the world, and a normal for each pair.
   explicit Facing(const world::World& world);
-  // The points of the pair with a gap of at most `far` (m); null if their boxes are farther apart than that.
-  // Gaps are negative by as much as the bodies overlap along the manifold's normal. The reference holds until
-  // the next call. Overlaps of up to a fifth of the smaller body's reach are reported right.
+  // The points of the pair with a gap of at most `far` (m); null if their boxes are farther apart than that. A gap is
+  // negative by as much as the bodies overlap along the manifold's normal. The reference is valid until the next call.
+  // Overlaps of up to a fifth of the smaller body's reach are reported correctly.
   const Manifold* find(const world::World& world, int a, int b, double far);
   std::int64_t searches() const { return searches_; }
 
@@ -35,14 +35,14 @@ class Facing {
 // The smallest gap of all pairs nearer than `far` (m), negative for an overlap; infinite if there is none.
 double smallest_gap(Facing& facing, const world::World& world, double far);
 
-// One frame after the other, all of the same length. A contact takes part if its gap is not positive at the
-// frame's start, or would not be at its end if nothing changed: g + dt v <= 0 (up to the world's tolerance,
-// or rounding would decide what lies on what). For those
+// Frames of one length. A contact takes part if its gap is not positive at the frame's start, or would not be at its
+// end if nothing changed: g + dt v <= 0 (up to the world's tolerance: otherwise rounding would decide what lies on
+// what). For those
 //
 //   w = v+ + e v- >= 0,  j >= 0,  j'w = 0,     v+ = v- + dt gravity + M^-1 J' j,
 //
-// and then all bodies move on with v+ (theta = 1). No query says when contacts happen, nothing looks at the
-// way, and no position is ever put right.
+// and then all bodies move on with v+ (theta = 1). No times of contact are computed, paths are not checked, and
+// positions are never corrected.
 class MoreauJean {
  public:
   struct Report {

@@ -13,7 +13,7 @@ namespace fc::resting {
 
 struct StudyOptions {
   std::filesystem::path out;
-  int repeats = 3;     // of each run: the least of its times counts, others can only add to it
+  int repeats = 3;     // of each run: the shortest of its times counts, since disturbances only add to it
   bool quiet = false;  // no progress
 };
 
@@ -25,20 +25,20 @@ constexpr double kGravity = 9.81;     // m/s^2
 constexpr double kFrame = 1.0 / 60;   // s
 constexpr double kEnvelope = 5e-4;    // m
 constexpr double kRestitution = 0.5;  // of the ball; nothing else bounces
-constexpr double kDrop = 1;           // m, from which the ball falls
+constexpr double kDrop = 1;           // m, the height from which the ball falls
 constexpr double kSlope = M_PI / 6;   // rad
 constexpr int kBoxes = 10;            // of a stack
 
 // Body 0 is the floor. All with an envelope of kEnvelope.
 Scene ball_scene();
-// kBoxes boxes of 1 m and 1 kg, one above the other, so far apart (m).
+// kBoxes boxes of 1 m and 1 kg, one above the other, `apart` (m) from each other.
 Scene stack_scene(double apart);
-// One box on a slope: gravity leans, the floor does not.
+// One box on a slope: gravity is inclined, the floor is not.
 Scene slope_scene();
 // Boxes of half a metre that fall into a pit. Five static bodies come first.
 Scene heap_scene(int side, int layers);
 
-// Of the ball: its height above the floor at time t, and when its bounces have come to their end.
+// For the ball: its height above the floor at time t, and when its bounces have ended.
 double ball_height(double t);
 double zeno_time();
 
@@ -66,20 +66,20 @@ struct Frame {
   std::vector<double> push;  // N s, the impulses at contacts whose lower number is this body
 };
 
-// What a run did.
+// The results of a run.
 struct Run {
   std::int64_t rows = 0, queries = 0, sweeps = 0, solves = 0;
   std::int64_t shortened = 0;  // paths of bodies
   double lost = 0, corrected = 0,
-         lost_impulse = 0;  // s; J, that corrections added; N s, that shortened paths took
+         lost_impulse = 0;  // s; J, added by corrections; N s, taken by shortened paths
   double mean_residual = 0, worst_residual = 0;
-  double gap = 0;                          // m, the smallest at the end of a frame, if someone looked
+  double gap = 0;                          // m, the smallest at the end of a frame, if it was measured
   std::vector<double> ns = {};             // of each repeat
-  double second_ns(double seconds) const;  // the least, for a second that is simulated
+  double second_ns(double seconds) const;  // the shortest, for one simulated second
 };
 
-// Builds the world, and runs it `repeats` times; reports each frame of the first to `look`. Gaps are measured
-// by one judge for all methods, Facing, which takes faces that lie over each other: not for heaps.
+// Builds the world, and runs it `repeats` times; reports each frame of the first run to `look`. Gaps of all methods are
+// measured by Facing, which needs faces that lie over each other: it is not for heaps.
 using Look = std::function<void(const world::World&, const Frame&)>;
 Run run(const Setting& setting, int repeats, const Look& look = {});
 
@@ -87,7 +87,7 @@ struct BallResult {
   Run run;
   double height_error = 0;  // m, the worst at a frame's end
   double place_error = 0;   // m, at the end
-  double rest_error = 0;    // s, how late it is still, against closed form; known to a frame
+  double rest_error = 0;  // s, how late it comes to rest, compared with closed form; known to within a frame
   double energy_error = 0;  // J, at the end
 };
 struct SlopeResult {
@@ -110,8 +110,7 @@ SlopeResult measure_slope(Setting setting, int repeats, const Look& look = {});
 StackResult measure_stack(Setting setting, int repeats, const Look& look = {});
 double energy_of(const world::World& world);  // J, kinetic and potential
 
-// The largest of |F / W - 1|, where F is the force under a level of a stack in this frame and W the weight
-// above it.
+// The largest |F / W - 1|, where F is the force under a level of a stack in this frame and W the weight above it.
 double force_error(const Frame& frame, int boxes, double dt);
 
 }  // namespace fc::resting

@@ -1,4 +1,4 @@
-// What is asked of each scene.
+// What is measured in each scene.
 #include <algorithm>
 #include <cmath>
 

@@ -1,4 +1,4 @@
-// What sweeps are worth: a stack of ten, of which every force is known, and a heap.
+// How accurate sweeps are: in a stack of ten, where every force is known, and in a heap.
 #include <limits>
 
 #include "ch05_resting_contact/study/parts.hpp"
@@ -8,7 +8,7 @@
 namespace fc::resting {
 namespace {
 
-// Gaps are at their middle from the start: only forces are to be found.
+// Gaps are at the rest gap from the start: only forces have to be found.
 void study_forces(const StudyOptions& options) {
   TableWriter table(options.out / "forces.csv", {{"solver", ""},
                                                  {"knob", ""},  // sweeps of each plan
@@ -36,7 +36,8 @@ void study_forces(const StudyOptions& options) {
   table.close();
 }
 
-// 36 boxes, as a pile whose rows are swept so many times, whatever that leaves. Sweeps 0: island by island, by Dantzig's method.
+// 36 boxes, as a pile whose rows are swept this many times, whatever residual is left. Sweeps 0: island by island, by
+// Dantzig's method.
 void study_heap(const StudyOptions& options) {
   TableWriter table(options.out / "heap.csv", {{"sweeps", ""},
                                                {"mean_residual", ""},

@@ -10,12 +10,12 @@ constexpr int kSweeps = 4000;
 constexpr double kWanted = 1e-11, kAccepted = 1e-6;  // residuals
 constexpr double kSticking = 1e-9;  // a contact inside its cone by more than this part of it sticks
 
-// N s, world: what r has of contact i.
+// N s, world: the impulse of contact i in r.
 Vec3 in_world(const lcp::Contact& contact, const VecX& r, std::size_t i) {
   return contact_frame(contact.normal) * r.segment<3>(3 * static_cast<Eigen::Index>(i));
 }
 
-// Each contact three times: along its normal, and along two tangents.
+// Each contact as three rows: along its normal, and along two tangents.
 std::vector<lcp::Contact> three_rows(std::span<const lcp::Contact> contacts) {
   std::vector<lcp::Contact> rows;
   for (const lcp::Contact& contact : contacts) {
@@ -28,7 +28,8 @@ std::vector<lcp::Contact> three_rows(std::span<const lcp::Contact> contacts) {
   return rows;
 }
 
-// Chapter 5's push with three rows a contact: impulses r that Coulomb's law allows for the velocities after, A r + J v + spare.
+// Chapter 5's push with three rows for each contact: impulses r that Coulomb's law allows for the velocities
+// afterwards, A r + J v + spare.
 bool push(std::span<RigidBody> bodies, std::span<const lcp::Contact> contacts, const VecX& spare,
           const VecX& mu, ContactFunction* solve_contact, VecX& r, int& sweeps) {
   if (contacts.empty()) return true;
@@ -50,7 +51,7 @@ bool sweep_contacts(ContactFunction* solve_contact, const ConeProblem& problem, 
     for (Eigen::Index i = 0; i < problem.contacts(); ++i) {
       const Mat3 own = problem.block(i);
       const Vec3 u = A.middleRows<3>(3 * i) * r + b.segment<3>(3 * i);
-      const Vec3 q = u - own * r.segment<3>(3 * i);  // if this contact did nothing
+      const Vec3 q = u - own * r.segment<3>(3 * i);  // the velocity without this contact's impulse
       r.segment<3>(3 * i) = solve_contact(own, q, mu[i]).r;
     }
     left = residual(problem, r, A * r + b);

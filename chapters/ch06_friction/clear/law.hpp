@@ -1,4 +1,5 @@
-// Coulomb's law for an island in its clear form: three rows a contact, and sweeps that ask one function, that of one contact.
+// Coulomb's law for an island in its clear form: three rows for each contact, and sweeps that call one function, that
+// of one contact.
 #pragma once
 
 #include "ch06_friction/clear/one_contact.hpp"
@@ -6,14 +7,15 @@
 
 namespace fc::friction::clear {
 
-// Gauss-Seidel on u = A r + b: each contact in turn, as if the others were known, until the residual (cone_problem.hpp) is
-// small. r comes in as a guess. Returns whether it is small enough, and after how many sweeps.
+// Gauss-Seidel on u = A r + b: each contact in turn, as if the others were known, until the residual (cone_problem.hpp)
+// is small. r comes in as a guess. Returns whether the residual is small enough; `sweeps` becomes their number.
 bool sweep_contacts(ContactFunction* solve_contact, const ConeProblem& problem, VecX& r, int& sweeps);
 
-// In the place of CoulombLaw. What is not the push is CoulombLaw's: corrections of gaps, expansions of impacts, where slips end.
+// Replaces CoulombLaw's push. All else is CoulombLaw's: corrections of gaps, expansions of impacts, where slips end.
 class ClearLaw : public CoulombLaw {
  public:
-  // unsolved: counts how often sweeps did not solve an island. It is a pile then, which this law does not solve.
+  // unsolved: counts how often sweeps did not solve an island. Such an island becomes a pile, which this law does not
+  // solve.
   ClearLaw(world::World& world, ContactFunction* solve_contact, int& unsolved)
       : CoulombLaw(world), solve_contact_(solve_contact), unsolved_(unsolved) {}
 

@@ -12,13 +12,15 @@ namespace {
 using Vec2 = Eigen::Vector2d;
 using Mat2 = Eigen::Matrix2d;
 
-// An eigenvalue below this part of A's largest entry is 0, and so is a velocity below this part of what cancels in it.
+// An eigenvalue below this share of A's largest entry is 0, and so is a velocity below this share of the terms that
+// cancel in it.
 constexpr double kDead = 1e-14;
-// Pieces into which the axis of α is cut. They are searched from 0 on: the first change of sign is the slowest slip.
+// Pieces into which the axis of α is divided. They are searched from 0 on: the first change of sign is the slowest
+// slip.
 constexpr int kPieces = 200;
 constexpr int kHalvings = 1200;  // more than a double has
 
-// A contact that touches: u_N = 0 has eliminated r_N, and the tangents are the eigenvectors of D̂.
+// A contact that touches: r_N is eliminated by u_N = 0, and the tangents are the eigenvectors of D̂.
 struct Touching {
   double mu, free;  // free: N s, the normal impulse if there were no friction
   Vec2 c, d;        // c/a, and d̂ in m/s
@@ -28,7 +30,7 @@ struct Touching {
   double normal(const Vec2& tangent) const { return free - c.dot(tangent); }
   double f(double alpha) const { return tangent(alpha).norm() - mu * normal(tangent(alpha)); }
 
-  // f(0) > 0. From `most` on f < 0: there |r_T| <= |d̂|/α, and r_N >= free - |c||d̂|/α.
+  // f(0) > 0. From `most` on f < 0, since |r_T| <= |d̂|/α and r_N >= free - |c||d̂|/α there.
   double least_root() const {
     const double most = 2 * d.norm() * (1 + mu * c.norm()) / (mu * free);
     const double scale = delta.sum() > 0 ? delta.sum() : most;
@@ -64,7 +66,8 @@ Answer solve_contact(const Mat3& A, const Vec3& q, double mu) {
   Touching touching{mu, -q[0] / a, axes.transpose() * c, Vec2::Zero(), eigen.eigenvalues()};
   touching.d = along - touching.c * q[0];
 
-  // Along a dead direction no impulse moves anything. If nothing slips there, any δ will do; else it cannot stick.
+  // Along a dead direction no impulse moves anything. If nothing slips along it, any δ will do; else the contact cannot
+  // stick.
   const double size = A.cwiseAbs().maxCoeff();
   for (int i = 0; i < 2; ++i) {
     if (touching.delta[i] > kDead * size) continue;
@@ -80,7 +83,7 @@ Answer solve_contact(const Mat3& A, const Vec3& q, double mu) {
     tangent = touching.tangent(0);
   } else if (mu > 0) {
     tangent = touching.tangent(touching.least_root());
-    // The root has an error in its last digit: the cone has none.
+    // The root has an error in its last digit; the impulse must lie exactly on the cone.
     if (tangent.norm() > 0) tangent *= mu * touching.normal(tangent) / tangent.norm();
   }
   Answer answer{sticks ? Kind::stick : Kind::slip, Vec3::Zero()};

@@ -1,4 +1,4 @@
-// Chapter 6's piece: one contact. The clear law (law.hpp) asks it at every contact in every sweep.
+// Chapter 6's piece: one contact. The clear law (law.hpp) calls it for every contact in every sweep.
 #pragma once
 
 #include "ch06_friction/clear/one_contact.hpp"

@@ -1,4 +1,5 @@
-// ch06_cones: how well each method does on friction problems in files, what flat sides do to a free slide, and what towers take.
+// ch06_cones: how well each method solves friction problems from files, what flat sides do to a free slide, and what
+// towers need.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -21,7 +22,7 @@ namespace {
 using namespace fc;
 using namespace fc::friction;
 
-// The names of all problems of a folder: NAME.A.mtx, NAME.b.mtx, NAME.mu.mtx.
+// The names of all problems in a folder: NAME.A.mtx, NAME.b.mtx, NAME.mu.mtx.
 std::vector<std::string> problem_names(const std::filesystem::path& folder) {
   std::vector<std::string> names;
   const std::string ending = ".A.mtx";

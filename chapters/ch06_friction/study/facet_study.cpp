@@ -7,7 +7,7 @@
 namespace fc::friction {
 
 Eigen::Vector2d stopping_point(const FrictionLaw& law, double angle, int steps) {
-  // Mass, µ and g are 1: the exact time is 1, and the way 1/2.
+  // Mass, µ and g are 1: the exact time is 1, and the distance 1/2.
   const double dt = 1.0 / steps;
   const MatX A = MatX::Identity(3, 3);
   const VecX mu = VecX::Ones(1);
@@ -15,7 +15,7 @@ Eigen::Vector2d stopping_point(const FrictionLaw& law, double angle, int steps) 
   Eigen::Vector2d position = Eigen::Vector2d::Zero();
   for (int step = 0; step < 2 * steps && !b.tail<2>().isZero(1e-12); ++step) {
     const ConeResult result = solve({A, b, mu}, law.method, {.sides = law.sides, .turned = false});
-    // The mean of before and after, as constant forces have it.
+    // The mean of the velocities before and after, as with constant forces.
     position += 0.5 * dt * (b.tail<2>() + result.u.tail<2>());
     b.tail<2>() = result.u.tail<2>();
   }

@@ -1,4 +1,4 @@
-// What sweeps leave, and what all contacts at once leave, of towers of boxes.
+// The residual that sweeps leave, and that solving all contacts at once leaves, for towers of boxes.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@ namespace fc::friction {
 
 struct TowerRow {
   int boxes = 0;
-  std::string method;      // sweeps, or together
+  std::string method;      // sweeps, or together: all contacts at once
   int steps = 0;           // sweeps, or rounds after some sweeps
-  double looks = 0;        // at each contact; a step of Newton's method counts as many
+  double looks = 0;        // visits to each contact; a step of Newton's method counts as many
   double residual = 0;     // see ContactSweeps
   double force_error = 0;  // of the force under the lowest box, over the tower's weight
 };

@@ -1,4 +1,4 @@
-// Exercise 3.3. Closed forms: equal balls in a row sort their velocities, whoever is hit first.
+// Exercise 3.3. Closed forms: equal balls in a row sort their velocities, whichever is hit first.
 #include "ex03_one_by_one.hpp"
 
 #include <gtest/gtest.h>
@@ -107,8 +107,8 @@ TEST(Ex03OneByOne, ASqueezeComesApart) {
   expect_speeds(scene, {-1, 0, 1}, kRounding, "the outer balls go back, and the middle one stays");
 }
 
-// Equal balls with restitution 1 swap their velocities. Each hit removes one pair that stands in the wrong
-// order, so the number of hits is the number of such pairs, whoever is first (Knauf and Stepan).
+// Equal balls with restitution 1 swap their velocities. Each hit removes one pair that stands in the wrong order, so
+// the number of hits is the number of such pairs, whichever is first (Knauf and Stepan).
 TEST(Ex03OneByOne, EqualBallsSortTheirVelocities) {
   std::mt19937_64 random(3);
   for (int trial = 0; trial < 100; ++trial) {

@@ -109,7 +109,7 @@ TEST(Ex05Scrape, WhoSeparatesIsLeftAlone) {
   EXPECT_EQ((body.spin - Vec3(3, 2, 1)).norm(), 0) << "rad/s: nothing rubs, so it spins on";
 }
 
-// What the header asks of an impact of a body that was as `before`, and is now as `after`.
+// What the header demands of an impact of a body that was as `before`, and is now as `after`.
 void expect_law(const RigidBody& before, const RigidBody& after, const Touch& touch, const Scrape& j) {
   const Vec3 n = touch.normal, v = before.velocity_at(touch.point), v_after = after.velocity_at(touch.point);
   const double speed = std::max(1.0, v.norm()), epsilon = touch.restitution;

@@ -35,7 +35,7 @@ double momentum(const std::vector<Bead>& beads) {
   return sum;
 }
 
-// Everybody is asked anew after every collision, and everybody is moved.
+// After every collision all beads are queried again, and all are moved.
 BeadsResult slowly(std::vector<Bead>& beads, double duration) {
   BeadsResult result;
   for (double now = 0;;) {

@@ -14,7 +14,7 @@ namespace {
 using namespace fc::exercises;
 using Numbers = std::vector<int>;
 
-// From body to body, over contacts, until nobody new is found.
+// From body to body, over contacts, until no new body is found.
 std::vector<Island> slowly(const std::vector<char>& fixed, const std::vector<Touch>& contacts) {
   std::vector<Island> islands;
   Numbers island_of(fixed.size(), -1);

@@ -23,7 +23,7 @@ double energy(const Pile& pile) {  // J
   return sum;
 }
 
-// What of a box's change of momentum neither its weight nor its impulses account for, N s.
+// The part of a box's change of momentum that neither its weight nor its impulses explain, N s.
 double unexplained(const Pile& before, const Pile& after, const Report& report, int box, double dt) {
   double sum =
       before.boxes[box].mass * (after.boxes[box].velocity - before.boxes[box].velocity + before.gravity * dt);
@@ -34,7 +34,7 @@ double unexplained(const Pile& before, const Pile& after, const Report& report, 
   return sum;
 }
 
-// All that the contact below a box gave, N s.
+// The sum of the impulses of the contact below a box, N s.
 double given(const Report& report, int box) {
   double sum = 0;
   for (const Impulse& impulse : report.impulses) sum += impulse.box == box ? impulse.amount : 0;
@@ -56,7 +56,7 @@ void expect_the_clash(const Report& report, int upper) {
 }
 
 TEST(Ex06Hopping, WhatRestsDoesNotHop) {
-  // The upper box is there just at the frame's end; or in its midst.
+  // The upper box arrives exactly at the frame's end; or in the middle of the frame.
   for (const double gap : {2.4 * kWidth + 0.5 * kGravity * kFrame * kFrame, 2 * kWidth}) {
     const double s = 1.9 * kFast, way = gap - 0.25 * kWidth;
     Pile pile{

@@ -40,7 +40,7 @@ void expect_answer(const Mat3& A, const Vec3& q, double mu, Kind kind, const Vec
       << "N s: r = (" << got.r.transpose() << "), expected (" << r.transpose() << "): " << meaning;
 }
 
-// By how much the law is broken, of the velocities that are added up.
+// By how much the law is violated, relative to the velocities that are added up.
 double violation(const Mat3& A, const Vec3& q, double mu, const Answer& answer, std::string& what) {
   const Vec3 u = A * answer.r + q, parts = A.cwiseAbs() * answer.r.cwiseAbs() + q.cwiseAbs();
   const double size = parts.maxCoeff(), impulse = answer.r.norm();

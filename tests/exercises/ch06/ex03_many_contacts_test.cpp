@@ -24,7 +24,7 @@ Problem one_ball(const Vec3& q, double mu) {
   return {Vec3(0.5, 1.75, 1.75).asDiagonal().toDenseMatrix(), q, vector({mu})};
 }
 
-// The same on every machine: contacts of bodies with so many degrees of freedom.
+// The same on every machine: contacts of bodies with this number of degrees of freedom in all.
 Problem random_problem(unsigned seed, int count, double mu, int freedoms) {
   std::mt19937_64 random(seed);
   const auto any = [&] { return 2 * static_cast<double>(random() >> 11) / 9007199254740992.0 - 1; };

@@ -54,7 +54,7 @@ Pile tetrahedron(double mu) {
   return pile;
 }
 
-// m: how far any ball has come in so many steps.
+// m: how far any ball has moved in this many steps.
 double drift(Pile pile, int steps) {
   const std::vector<Ball> start = pile.balls;
   for (int k = 0; k < steps; ++k) step(pile, kStep);

@@ -313,7 +313,7 @@ TEST(Ex06Creeping, RandomScenesKeepTheLaws) {
         return ", trial " + std::to_string(trial) + ", frame " + std::to_string(frame);
       };
       const double speed = before.body.velocity.norm() + 0.3 * before.body.spin.norm() + kGravity * kFrame;
-      // N s: what adds up must, to the last digits; what sweeps find, they find to four.
+      // N s: sums must agree to the last digits; the results of sweeps, to four digits.
       const double small = 1e-9 * body.mass * speed, found = 1e-4 * body.mass * speed;
       Vec3 momentum = body.mass * (body.velocity - before.body.velocity - kFrame * scene.gravity);
       Vec3 angular = body.inertia * (body.spin - before.body.spin);
