@@ -124,7 +124,7 @@ function(fc_exercise_settings target chapter)
     target_link_libraries(${target} PRIVATE GTest::gtest_main)
   endif()
   if(FC_SANITIZE AND TARGET fc_precompiled_tests AND target MATCHES "_tests$")  # no learner waits for this build
-    target_link_libraries(${target} PRIVATE Eigen3::Eigen fmt::fmt GTest::gmock)
+    target_link_libraries(${target} PRIVATE fc_test_settings Eigen3::Eigen fmt::fmt GTest::gmock)
     target_precompile_headers(${target} REUSE_FROM fc_precompiled_tests)
   endif()
   # They are many. A learner's file alone would only wait for it; and who tests these functions may have none.

@@ -64,14 +64,18 @@ function(fc_add_library name)
   set_target_properties(${name} PROPERTIES UNITY_BUILD ${ARG_UNITY} UNITY_BUILD_BATCH_SIZE 8)
 endfunction()
 
-# fc_add_sources(NAME FILES ... LINKS ...): a library of files of the current folder; FILES are names without ".cpp", and
+# fc_add_sources(NAME [UNITY] FILES ... LINKS ...): a library of files of the current folder; FILES are names without ".cpp", and
 # may have wildcards. What only some programs need is such a library of its own, so that the others do not wait for it.
 function(fc_add_sources name)
-  cmake_parse_arguments(ARG "" "" "FILES;LINKS" ${ARGN})
+  cmake_parse_arguments(ARG "UNITY" "" "FILES;LINKS" ${ARGN})
+  set(unity "")
+  if(ARG_UNITY)
+    set(unity UNITY)
+  endif()
   list(TRANSFORM ARG_FILES APPEND .cpp)
   file(GLOB sources CONFIGURE_DEPENDS ${ARG_FILES})
   list(FILTER sources EXCLUDE REGEX "main\\.cpp$")
-  fc_add_library(${name} SOURCES ${sources} LINKS ${ARG_LINKS})
+  fc_add_library(${name} ${unity} SOURCES ${sources} LINKS ${ARG_LINKS})
   set_property(DIRECTORY APPEND PROPERTY FC_TAKEN ${sources})
 endfunction()
 
@@ -108,6 +112,9 @@ function(fc_add_program name source)
   set_target_properties(${name} PROPERTIES ENABLE_EXPORTS ON)  # to a learner's modules (common/pieces.hpp)
   target_link_libraries(${name} PRIVATE ${ARG_LINKS})
   target_precompile_headers(${name} REUSE_FROM fc_precompiled)
+  if(FC_SANITIZE AND name MATCHES "_pictures$")  # what makes the drawings' tables is run by no test
+    set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)
+  endif()
 endfunction()
 
 # fc_add_test(NAME SOURCES ... LINKS ...): a GoogleTest executable whose tests CTest lists one by one. Tests find the
@@ -128,7 +135,7 @@ function(fc_add_test name)
     set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
     set_source_files_properties(${ARG_APART} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   endif()
-  target_link_libraries(${name} PRIVATE fc_settings ${ARG_LINKS} Eigen3::Eigen fmt::fmt GTest::gtest_main)
+  target_link_libraries(${name} PRIVATE fc_test_settings ${ARG_LINKS} Eigen3::Eigen fmt::fmt GTest::gtest_main)
   target_precompile_headers(${name} REUSE_FROM fc_precompiled_tests)
   target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR} ${CMAKE_SOURCE_DIR}/chapters)
   target_compile_definitions(${name} PRIVATE FC_SOURCE_DIR="${CMAKE_SOURCE_DIR}"

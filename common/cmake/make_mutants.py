@@ -70,7 +70,7 @@ def dispatcher(declared: list[tuple[str, str, str]], mistakes: list[str]) -> str
     for returns, name, parameters in declared:
         given = [part.split("=")[0].strip() for part in split(parameters)]
         names = ", ".join(re.search(r"(\w+)$", part)[1] for part in given)
-        calls = "".join(f"    case {k}: return {mistake}::mutated_{name}({names});\n" for k, mistake in enumerate(mistakes))
+        calls = "".join(f"    case {k}: return mutant_{mistake}::mutated_{name}({names});\n" for k, mistake in enumerate(mistakes))
         result += f"{returns}{name}({', '.join(given)}) {{\n  switch (chosen()) {{\n{calls}    default: std::abort();\n  }}\n}}\n"
     return result
 
@@ -87,7 +87,7 @@ def bundle(root: Path, header: Path, solution: Path, mutants: list[Path]) -> str
         includes += INCLUDE.findall(text)
         mistakes.append(mutant.stem.split(".", 1)[1])
         text = INCLUDE.sub("", text)
-        opened = f"namespace {space}::{mistakes[-1]} {{\n{own}"
+        opened = f"namespace {space}::mutant_{mistakes[-1]} {{\n{own}"
         if len(LEARNERS.findall(text)) != 1:
             raise ValueError(f"{mutant}: it must open the namespace {space} once")
         bodies += renamed.sub(r"mutated_\1", LEARNERS.sub(lambda _: opened, text)) + "\n"

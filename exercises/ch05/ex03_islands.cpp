@@ -4,19 +4,19 @@
 
 namespace fc::exercises {
 
-Sets::Sets(int count) {
+Sets single_sets(int count) {
   FC_TODO("5.3");
 }
 
-int Sets::find(int number) {
+int find(Sets& sets, int number) {
   FC_TODO("5.3");
 }
 
-bool Sets::join(int a, int b) {
+bool join(Sets& sets, int a, int b) {
   FC_TODO("5.3");
 }
 
-int Sets::size(int number) {
+int size(Sets& sets, int number) {
   FC_TODO("5.3");
 }
 

@@ -9,23 +9,26 @@ namespace fc::exercises {
 
 // Sets of the numbers 0 ... n - 1 that are joined step by step. Each is a tree: every number has a parent, and the
 // root, which is its own parent, stands for the set.
-class Sets {
- public:
-  explicit Sets(int count);  // each number by itself
-  // The root of the number's set. Shortens the path on its way: afterwards no number on it is farther from the root
-  // than before, and a number that was more than one step away is nearer.
-  int find(int number);
-  // Makes one set of two; false if they were one already. The larger set's root remains the root, so that no path is
-  // ever longer than log2(n) steps.
-  bool join(int a, int b);
-  int size(int number);  // of its set
-  // Steps from a number to its parent in all calls of find() together: the cost of searching.
-  std::int64_t steps() const { return steps_; }
-
- private:
-  std::vector<int> parents_, sizes_;
-  std::int64_t steps_ = 0;
+struct Sets {
+  std::vector<int> parents;
+  std::vector<int> sizes;  // of each set, at its root
+  std::int64_t steps =
+      0;  // from a number to its parent, in all calls of find() together: the cost of searching
 };
+
+// n sets, each of one number.
+Sets single_sets(int count);
+
+// The root of the number's set. Shortens the path on its way: afterwards no number on it is farther from the root than
+// before, and a number that was more than one step away is nearer.
+int find(Sets& sets, int number);
+
+// Makes one set of two; false if they were one already. The larger set's root remains the root, so that no path is ever
+// longer than log2(n) steps.
+bool join(Sets& sets, int a, int b);
+
+// How many numbers are in the number's set.
+int size(Sets& sets, int number);
 
 struct Touch {
   int a = 0, b = 0;  // bodies, not equal

@@ -12,38 +12,40 @@ std::size_t at(int index) {
 
 }  // namespace
 
-Sets::Sets(int count) : parents_(at(count)), sizes_(at(count), 1) {
-  std::iota(parents_.begin(), parents_.end(), 0);
+Sets single_sets(int count) {
+  Sets sets{std::vector<int>(at(count)), std::vector<int>(at(count), 1)};
+  std::iota(sets.parents.begin(), sets.parents.end(), 0);
+  return sets;
 }
 
-int Sets::find(int number) {
-  while (parents_[at(number)] != number) {
-    int& parent = parents_[at(number)];
-    parent = parents_[at(parent)];  // the grandparent: from now on the path is half as long
+int find(Sets& sets, int number) {
+  while (sets.parents[at(number)] != number) {
+    int& parent = sets.parents[at(number)];
+    parent = sets.parents[at(parent)];  // the grandparent: from now on the path is half as long
     number = parent;
-    ++steps_;
+    ++sets.steps;
   }
   return number;
 }
 
-bool Sets::join(int a, int b) {
-  int large = find(a), small = find(b);
+bool join(Sets& sets, int a, int b) {
+  int large = find(sets, a), small = find(sets, b);
   if (large == small) return false;
-  if (sizes_[at(large)] < sizes_[at(small)]) std::swap(large, small);
-  parents_[at(small)] = large;
-  sizes_[at(large)] += sizes_[at(small)];
+  if (sets.sizes[at(large)] < sets.sizes[at(small)]) std::swap(large, small);
+  sets.parents[at(small)] = large;
+  sets.sizes[at(large)] += sets.sizes[at(small)];
   return true;
 }
 
-int Sets::size(int number) {
-  return sizes_[at(find(number))];
+int size(Sets& sets, int number) {
+  return sets.sizes[at(find(sets, number))];
 }
 
 std::vector<Island> islands_of(std::span<const char> fixed, std::span<const Touch> contacts) {
   const auto moves = [&](int body) { return fixed[at(body)] == 0; };
-  Sets sets(static_cast<int>(fixed.size()));
+  Sets sets = single_sets(static_cast<int>(fixed.size()));
   for (const Touch& c : contacts)
-    if (moves(c.a) && moves(c.b)) sets.join(c.a, c.b);
+    if (moves(c.a) && moves(c.b)) join(sets, c.a, c.b);
 
   // Only now, when all have been joined, a root is a name.
   std::vector<Island> islands;
@@ -51,7 +53,7 @@ std::vector<Island> islands_of(std::span<const char> fixed, std::span<const Touc
   for (int i = 0; i < static_cast<int>(contacts.size()); ++i) {
     const Touch& c = contacts[at(i)];
     if (!moves(c.a) && !moves(c.b)) continue;
-    int& number = island_of[at(sets.find(moves(c.a) ? c.a : c.b))];
+    int& number = island_of[at(find(sets, moves(c.a) ? c.a : c.b))];
     if (number < 0) {
       number = static_cast<int>(islands.size());
       islands.emplace_back();
@@ -61,7 +63,7 @@ std::vector<Island> islands_of(std::span<const char> fixed, std::span<const Touc
     island.grounded |= !moves(c.a) || !moves(c.b);
   }
   for (int body = 0; body < static_cast<int>(fixed.size()); ++body) {
-    const int number = moves(body) ? island_of[at(sets.find(body))] : -1;
+    const int number = moves(body) ? island_of[at(find(sets, body))] : -1;
     if (number >= 0) islands[at(number)].bodies.push_back(body);
   }
   return islands;

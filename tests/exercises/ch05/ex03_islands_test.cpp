@@ -56,19 +56,20 @@ void expect_islands(const std::vector<Island>& got, const std::vector<Island>& e
 }
 
 TEST(Ex03Islands, SetsGrowTogether) {
-  Sets sets(6);
-  EXPECT_EQ(sets.size(3), 1) << "members: at first each number is a set by itself";
-  EXPECT_TRUE(sets.join(0, 1)) << "0 and 1 were two sets, and become one";
-  EXPECT_TRUE(sets.join(2, 3)) << "2 and 3 were two sets, and become one";
-  EXPECT_TRUE(sets.join(1, 3)) << "sets become one over members that are no roots, too";
-  EXPECT_FALSE(sets.join(0, 2)) << "0 and 2 are of one set already, over 1 and 3";
-  EXPECT_EQ(sets.size(0), 4) << "members: 0, 1, 2 and 3";
-  EXPECT_EQ(sets.size(4), 1) << "members: nobody joined 4";
+  Sets sets = single_sets(6);
+  EXPECT_EQ(size(sets, 3), 1) << "members: at first each number is a set by itself";
+  EXPECT_TRUE(join(sets, 0, 1)) << "0 and 1 were two sets, and become one";
+  EXPECT_TRUE(join(sets, 2, 3)) << "2 and 3 were two sets, and become one";
+  EXPECT_TRUE(join(sets, 1, 3)) << "sets become one over members that are no roots, too";
+  EXPECT_FALSE(join(sets, 0, 2)) << "0 and 2 are of one set already, over 1 and 3";
+  EXPECT_EQ(size(sets, 0), 4) << "members: 0, 1, 2 and 3";
+  EXPECT_EQ(size(sets, 4), 1) << "members: nobody joined 4";
   for (const int i : {1, 2, 3})
-    EXPECT_EQ(sets.find(i), sets.find(0)) << "roots: " << i << " is of one set with 0, so both have the same";
-  EXPECT_NE(sets.find(4), sets.find(0)) << "roots: 4 is of another set than 0";
-  EXPECT_NE(sets.find(4), sets.find(5)) << "roots: 4 and 5 are each by themselves";
-  EXPECT_EQ(sets.find(sets.find(2)), sets.find(2)) << "roots: a root is its own root";
+    EXPECT_EQ(find(sets, i), find(sets, 0))
+        << "roots: " << i << " is of one set with 0, so both have the same";
+  EXPECT_NE(find(sets, 4), find(sets, 0)) << "roots: 4 is of another set than 0";
+  EXPECT_NE(find(sets, 4), find(sets, 5)) << "roots: 4 and 5 are each by themselves";
+  EXPECT_EQ(find(sets, find(sets, 2)), find(sets, 2)) << "roots: a root is its own root";
 }
 
 TEST(Ex03Islands, TwoStacksOnOneFloor) {
@@ -130,15 +131,15 @@ TEST(Ex03Islands, AsFromBodyToBody) {
 // Joined in this order, two and two, four and four, ..., trees become as high as they can.
 TEST(Ex03Islands, NoWayIsLongerThanTheLogarithm) {
   constexpr int kLevels = 12, kCount = 1 << kLevels;
-  Sets pairs(kCount), row(kCount);
+  Sets pairs = single_sets(kCount), row = single_sets(kCount);
   for (int width = 1; width < kCount; width *= 2)
-    for (int i = 0; i < kCount; i += 2 * width) pairs.join(i, i + width);
-  for (int i = 1; i < kCount; ++i) row.join(i, i - 1);
+    for (int i = 0; i < kCount; i += 2 * width) join(pairs, i, i + width);
+  for (int i = 1; i < kCount; ++i) join(row, i, i - 1);
   for (Sets* sets : {&pairs, &row})
     for (int i = 0; i < kCount; ++i) {
-      const std::int64_t before = sets->steps();
-      sets->find(i);
-      ASSERT_LE(sets->steps() - before, kLevels)
+      const std::int64_t before = sets->steps;
+      find(*sets, i);
+      ASSERT_LE(sets->steps - before, kLevels)
           << "steps from number " << i
           << ": a member of the larger set never gets farther from its root, and "
           << "one of the smaller set goes to one twice as large; that happens 12 times at most";
@@ -148,15 +149,15 @@ TEST(Ex03Islands, NoWayIsLongerThanTheLogarithm) {
 // Each time a number is searched its path is half as long.
 TEST(Ex03Islands, WhoWasAskedIsNearer) {
   constexpr int kLevels = 12, kCount = 1 << kLevels;
-  Sets sets(kCount);
+  Sets sets = single_sets(kCount);
   for (int width = 1; width < kCount; width *= 2)
-    for (int i = 0; i < kCount; i += 2 * width) sets.join(i, i + width);
+    for (int i = 0; i < kCount; i += 2 * width) join(sets, i, i + width);
   std::int64_t before = 0;
   for (int time = 1; time <= 5; ++time) {
-    before = sets.steps();
-    for (int i = 0; i < kCount; ++i) sets.find(i);
+    before = sets.steps;
+    for (int i = 0; i < kCount; ++i) find(sets, i);
   }
-  EXPECT_EQ(sets.steps() - before, kCount - 1)
+  EXPECT_EQ(sets.steps - before, kCount - 1)
       << "steps for all numbers, asked for the fifth time: one each, but none for the root";
 }
 
@@ -166,12 +167,12 @@ TEST(Ex03Islands, CostsAFewStepsAContact) {
   std::iota(order.begin(), order.end(), 0);
   std::mt19937_64 random(2);
   for (int shuffled = 0; shuffled < 2; ++shuffled) {
-    Sets sets(kCount);
-    for (const int i : order) sets.join(i + 1, i);
-    for (int i = 0; i < kCount; ++i) sets.find(i);
-    EXPECT_EQ(sets.size(0), kCount) << "a row of bodies is one island";
-    EXPECT_LE(sets.steps(), 5 * kCount) << "steps, for " << kCount << " bodies in a row";
-    EXPECT_GE(sets.steps(), kCount - 1) << "steps: all but the root are at least one away from it";
+    Sets sets = single_sets(kCount);
+    for (const int i : order) join(sets, i + 1, i);
+    for (int i = 0; i < kCount; ++i) find(sets, i);
+    EXPECT_EQ(size(sets, 0), kCount) << "a row of bodies is one island";
+    EXPECT_LE(sets.steps, 5 * kCount) << "steps, for " << kCount << " bodies in a row";
+    EXPECT_GE(sets.steps, kCount - 1) << "steps: all but the root are at least one away from it";
     std::shuffle(order.begin(), order.end(), random);
   }
 }
