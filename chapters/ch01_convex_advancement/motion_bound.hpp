@@ -47,8 +47,8 @@ class MovingPair {
   //   (if it turns freely: h^2/2 (|n x w| |w| + |dw/dt|) |r|, the largest values),
   //
   // for all points at once: n.(w x r) = (n x w).r, so the support mapping in the turned direction
-  // n + h (n x w) tells which point is ahead after h seconds. The remaining gap is then concave in h: if it suffices now
-  // and after h seconds, it does in between.
+  // n + h (n x w) tells which point is ahead after h seconds. The remaining gap is then concave in h: if it
+  // suffices now and after h seconds, it does in between.
   double safe_time(const PairPose& pose, const Vec3& n, double gap, double target, double t,
                    double end) const;
 

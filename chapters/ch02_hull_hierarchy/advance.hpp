@@ -9,7 +9,7 @@ namespace fc::hulls {
 // tolerance at toc (features.hpp). Throws std::invalid_argument as ca::check_query.
 ca::AdvanceResult advance(const Model& a, const ca::Motion& motion_a, const Model& b,
                           const ca::Motion& motion_b, const ca::AdvanceOptions& options);
-// The same, with what was allocated kept for the next query.
+// The same; `memory` and `result` keep their storage for the next query.
 void advance(const Model& a, const ca::Motion& motion_a, const Model& b, const ca::Motion& motion_b,
              const ca::AdvanceOptions& options, SearchMemory& memory, ca::AdvanceResult& result);
 

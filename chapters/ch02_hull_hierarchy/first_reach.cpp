@@ -13,19 +13,19 @@
 namespace fc::hulls {
 namespace {
 
-// A pair with so much room, as a part of its nodes' radii, is advanced again rather than opened: most of what
-// it was feared to lose it still has. Consequence: half the pairs where bodies turn fast side by side, the
-// same elsewhere.
+// A pair with more room than this share of its nodes' radii is advanced again rather than opened: it still
+// has most of what the bound let it lose. Consequence: half the pairs where bodies turn fast side by side,
+// the same elsewhere.
 constexpr float kFarApart = 0.1f;
 
-constexpr int kLooksAtLast = 8;  // two leaves that meet do so after two or three advances, as a rule
+constexpr int kLooksAtLast = 8;  // two leaves that meet usually do so after two or three advances
 constexpr double kClear = std::numeric_limits<double>::infinity();
 
-// Of a step in double precision: its own rounding.
+// The share of a step in double precision that covers its own rounding.
 constexpr double kShorter = 1e-12;
 
-// The queue's top: earliest; of those that stand at the same time the one with the least `apart`, which leads
-// straight down to leaves instead of opening every pair of that time; then the order of the trees.
+// The queue's top: the earliest pair; among pairs of the same time the one with the least `apart`, which
+// leads straight down to leaves instead of opening every pair of that time; then the order of the trees.
 struct Later {
   bool operator()(const Waiting& x, const Waiting& y) const {
     if (x.time != y.time) return x.time > y.time;
@@ -46,7 +46,7 @@ struct Search {
   StepLimits limits{};
   ca::PairPose pose{motion_a, motion_b, 0};
   double pose_time = -1;
-  double horizon = kClear;  // s, nothing that is clear until here is of interest
+  double horizon = kClear;  // s, a pair that is clear until here need not be kept
   PairViews views{};
 
   void look_from(double t) {
@@ -151,7 +151,7 @@ struct Search {
     }
   }
 
-  // Two leaves are held against the plane of their boxes, point by point: a longer step, with its gap, if
+  // Tries two leaves point by point along the normal of their boxes: gives a longer step, with its gap, if
   // there is one.
   void step_points(double t, const Vec3& n, NodeId node_a, NodeId node_b, double& step, double& gap) const {
     const ca::Convex leaf_a = a.leaf(~a.boxes.child(node_a)), leaf_b = b.leaf(~b.boxes.child(node_b));
@@ -174,7 +174,7 @@ struct Search {
     if (g.lower <= options.target) g = leaf_distance(leaf_a, leaf_b, pose, options.tolerance);
     ++reach.leaf_pairs;
     const double room = g.lower - options.target;
-    // Leaves that overlap by rounding have no upper bound to speak of: then the lower one decides.
+    // Leaves that overlap by rounding have no meaningful upper bound: then the lower one decides.
     const bool at_target = pair.time > 0 ? g.upper <= options.target + options.slack ||
                                                g.lower <= options.target + 0.5 * options.slack
                                          : g.upper <= options.start;
@@ -187,7 +187,7 @@ struct Search {
           step, whole_step(motion_a, leaf_a, motion_b, leaf_b, g.normal, pair.time, options.interval, room));
       step *= 1 - kShorter;
     }
-    // No room, or a step below the rounding of the times that the caller adds this to: as far as it goes.
+    // No room, or a step below the rounding of the caller's times: the pair cannot be advanced any further.
     if (!(step > std::numeric_limits<double>::epsilon() * options.interval)) {
       reach.pair = {id_a, id_b, g};
       reach.time = pair.time;
@@ -198,8 +198,8 @@ struct Search {
     return false;
   }
 
-  // The leaves that met in the query before often meet again, a little later: when they would is an upper
-  // bound of the first contact, and what is clear until then need not wait.
+  // The leaves that met in the query before often meet again, a little later. The time of that contact is an
+  // upper bound of the first one, and a pair that is clear until then need not be kept.
   void begin_with_last() {
     Waiting last{0, 0, {1, 0, 0}, memory.last_a, memory.last_b};
     queue.push_back(last);

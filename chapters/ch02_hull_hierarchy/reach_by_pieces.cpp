@@ -30,7 +30,7 @@ Reach reach_by_pieces(const Model& a, const ca::Motion& motion_a, const Model& b
   reach.start_gap = std::max(0.0, roots.lower);
   switch (found.status) {
     case clear::FirstContact::Status::contact:
-      // The engine goes on with triangles, not with pieces.
+      // From here on the engine needs triangles, not pieces.
       reach.status = Reach::Status::reached;
       reach.pair =
           model_distance(a, b, ca::PairPose(motion_a, motion_b, found.time), options.tolerance).nearest;

@@ -1,4 +1,4 @@
-// What accuracy costs: against the tolerance, and against the margin by which bodies meet or miss.
+// What accuracy costs, against the tolerance and against the margin by which bodies meet or miss.
 #include <algorithm>
 #include <optional>
 
@@ -35,8 +35,8 @@ struct Grazing {
 };
 
 // Makes a motion that misses graze: B is brought nearer along the nearest points' normal, again and again;
-// other points come nearer by no more than that, so that the two never overlap. The nearest that a pair comes
-// is found by halving: whether it comes to a gap is what a search answers.
+// other points come nearer by no more than that, so that the two never overlap. The smallest gap of a motion
+// is found by bisection: one search answers whether the pair comes to a given gap.
 std::optional<Grazing> grazing(const StudyCase& c, MotionPair m) {
   SearchMemory memory;
   Reach reach;
@@ -55,12 +55,12 @@ std::optional<Grazing> grazing(const StudyCase& c, MotionPair m) {
       const double middle = 0.5 * (low + high);
       (comes_to(middle) ? high : low) = middle;
     }
-    // Past each other: neither from the start on nor at the end only.
+    // Passing by: not in contact from the start on, nor only at the end.
     if (reach.time < 0.1 || reach.time > 0.9) return std::nullopt;
     if (high <= 1e-9 * c.size) return Grazing{m, reach.pair.gjk.normal};
     m.b.position -= low * reach.pair.gjk.normal;
-    high =
-        std::max(high - low, 1e-9 * c.size) + 1e-3 * c.size;  // a new nearest pair may be as near as before
+    high = std::max(high - low, 1e-9 * c.size) +
+           1e-3 * c.size;  // another pair may now be as near as the first was
     if (!comes_to(high)) high = 0.5 * c.size;
   }
   return std::nullopt;

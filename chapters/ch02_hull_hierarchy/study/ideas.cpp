@@ -34,7 +34,7 @@ void study_ideas(const StudyCase& c, const StudyOptions& options) {
       {"hulls", kB, Bound::points, Volume::hull, kTriangles},
       {"pieces", kB, Bound::points, Volume::hull, Leaves::pieces},
       {"hulls of 64 points", kB, Bound::points, Volume::hull, Leaves::pieces, kFewPoints},
-      // The ancestors, and ours with one idea taken back.
+      // The earlier searches, and ours with one idea removed.
       {"FAST's", kG, Bound::directional, Volume::hull, Leaves::pieces},
       {"C2A's", kC, Bound::directional, Volume::swept_sphere, kTriangles},
       {"C2A's on boxes", kC, Bound::directional, Volume::box, kTriangles},

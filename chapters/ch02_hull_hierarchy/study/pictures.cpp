@@ -1,4 +1,4 @@
-// How tight the volumes are; hulls and visits to be drawn.
+// How tight the volumes are; and the hulls and visits that are drawn.
 #include <algorithm>
 #include <tuple>
 

@@ -125,7 +125,7 @@ void write_looks(const std::filesystem::path& file, const Flat& a, const Flat& b
     const auto pair = [&](int i, int j) { return name_of(a, i) + "–" + name_of(b, j); };
     const std::string name = pair(look.a, look.b);
     const auto at = std::find_if(queue.begin(), queue.end(), [&](const Waits& w) { return w.name == name; });
-    if (at == queue.end()) throw NumericalFailure("a pair was looked at that did not wait: " + name);
+    if (at == queue.end()) throw NumericalFailure("a pair was looked at that was not in the queue: " + name);
     queue.erase(at);
     if (look.fate == Look::Fate::advanced) queue.push_back({look.next, name});
     if (look.fate == Look::Fate::opened) {

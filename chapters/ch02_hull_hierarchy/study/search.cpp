@@ -16,7 +16,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // A pair whose gap is larger than this share of its radii is advanced again rather than opened.
 constexpr double kFarApart = 0.2;
 
-// Of a step in double precision: its own rounding.
+// The share of a step in double precision that covers its own rounding.
 constexpr double kShorter = 1e-12;
 
 // Two nodes, and until when they are known to be clear.
@@ -35,7 +35,7 @@ struct Search {
   const StudySearchOptions& study;
   StudyReach reach{};
   bool found = false, given_up = false;
-  double end = options.interval;  // s: what is clear until then is of no interest. Sinks to the contact
+  double end = options.interval;  // s: a pair that is clear until then need not be kept. Falls to the contact
   ca::PairPose pose{motion_a, motion_b, 0};
   double pose_time = 0;
 
@@ -56,7 +56,7 @@ struct Search {
     bool reached = false;  // two leaves that are in contact
   };
 
-  // The bound of the options: how long `room` lasts.
+  // How long `room` lasts by the bound that the options name.
   double safe_step(const Pair& pair, const ca::Convex& hull_a, const ca::Convex& hull_b, const Vec3& n,
                    double t, double room) const {
     if (study.bound == Bound::naive) {
@@ -90,7 +90,7 @@ struct Search {
       look.step = (1 - kShorter) * safe_step(pair, hull_a, hull_b, g.normal, t, room);
       ++reach.advances;
     }
-    // Leaves that overlap by rounding have no upper bound to speak of: then the lower one decides.
+    // Leaves that overlap by rounding have no meaningful upper bound: then the lower one decides.
     const bool at_target =
         g.upper <= options.target + options.slack || g.lower <= options.target + 0.5 * options.slack;
     look.reached = both_leaves && ((at_target && t > 0) ||
@@ -129,7 +129,7 @@ struct Search {
   // each pair at its own time
   // ----------------------------------------------------------------------------------------
 
-  // Looks at a pair at `time`: whether it is of interest still, with its new time.
+  // Looks at a pair at `time`. Returns whether it is still to be kept, with its new time.
   bool advance(Pair& pair, double time) {
     const Look now = look(pair, time);
     if (now.reached) {
@@ -141,7 +141,7 @@ struct Search {
     return pair.time < end;
   }
 
-  // Later pairs last; of those of one time the one that can be farthest apart.
+  // Later pairs last; of pairs of the same time, the one that can be farthest apart.
   bool later(const Pair& x, const Pair& y) const {
     if (x.time != y.time) return x.time > y.time;
     const double apart_x = std::max(0.0, x.gap) + radii(x), apart_y = std::max(0.0, y.gap) + radii(y);
@@ -156,7 +156,7 @@ struct Search {
       if (advance(pair, time)) queue.push(pair);
     };
     consider({}, 0);
-    // Whatever is found is found at the earliest time of all that wait.
+    // Any contact is found at the earliest time of all waiting pairs.
     while (!queue.empty() && !found && !exhausted()) {
       const Pair top = queue.top();
       queue.pop();
@@ -193,7 +193,7 @@ struct Search {
     Pair last{};                 // the leaves with the smallest step
   };
 
-  // C2A: the gap that is worth opening, from round to round.
+  // C2A: which gaps are worth opening, from round to round.
   double share_of_round(double last_step) const {
     if (study.order == Order::global) return kInfinity;
     if (reach.rounds > 6 || last_step <= 0.005 * options.interval) return 0;
@@ -229,7 +229,7 @@ struct Search {
     while (t < end && !give_up()) {
       ++reach.rounds;
       Round round{t, options.interval - t, kInfinity, share_of_round(last_step), last};
-      // The pair that decided the last step may well decide this one: its step leaves less to look at.
+      // The pair that decided the last step may well decide this one: with its step there is less to look at.
       if (leaves(last)) settle(round, last, look(last, t));
       if (!found) go_through(round, {}, look({}, t));
       if (found) return;
@@ -248,7 +248,8 @@ struct Search {
       if (advance(roots, 0)) depth_first(roots);
     }
     if (study.order == Order::global || study.order == Order::controlled) in_rounds();
-    if (given_up && study.order == Order::depth_first) {  // an earlier contact may wait: nothing is proved
+    if (given_up &&
+        study.order == Order::depth_first) {  // an earlier contact may still be waiting: nothing is proved
       reach.status = Reach::Status::limit;
       reach.time = 0;
     } else {
