@@ -20,7 +20,7 @@ int main(int argc, char** argv) {
   program.purpose =
       "Measures what chapter 2's ideas gain. Two models of one mesh move against each other, `--far` times "
       "from afar and `--close` times from close by, always the same motions. Each part writes a table into "
-      "--out; columns that end in _ns are times of this machine, all others are the same in every run:";
+      "--out; columns that end in _ns are times on this machine, all others are the same in every run:";
   program.example =
       "build/bin/ch02_study --part ideas --triangles 5000 --far 40 --close 20 --out out/ch02/study";
   program.parts = {
