@@ -13,7 +13,7 @@ namespace fc::lcp::clear {
 // Returns z, w, the pivots, and the status:
 //   solved       (z, w) passed acceptable();
 //   no_solution  `certificate` is a y >= 0 with A y = 0 and b'y < 0, and passed certifies_no_solution();
-//   limit        too many pivots, or round-off won: neither is known.
+//   limit        too many pivots, or spoiled by round-off: neither is known.
 // `residual` is left to the caller. A pivot costs a decomposition of the basis, up to 4/3 n^3 operations, where the fast
 // form (../dantzig.hpp) updates its factors in n^2: for problems of up to about a hundred rows.
 LcpResult dantzig(const MatX& A, const VecX& b, int limit);
