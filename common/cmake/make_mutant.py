@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """make_mutant.py ROOT CHANGE SOLUTION OUT: writes the mutant that a change describes.
 
-A change is a wrong version of a source, as the lines that differ:
+A change describes a wrong version of a source by the lines that differ:
 
     // Caught by: Suite.Test
     // Changes: chapters/ch01_convex_advancement/clear/gjk.cpp
@@ -11,7 +11,7 @@ A change is a wrong version of a source, as the lines that differ:
     as the mistake has it
     >>>>
 
-and more of such blocks. Without the second line it changes the exercise's solution. A clear version of a chapter becomes the
+and further such blocks. Without the second line it changes the exercise's solution. A clear version of a chapter becomes the
 learner's by its namespace: fc::….::clear turns into fc::mine. Ends with 1 and a line if the source has changed so that a
 block does not fit."""
 
@@ -33,7 +33,7 @@ def mutant(root: Path, change: Path, solution: Path) -> str:
         raise ValueError(f"{change}: no block from <<<< over ==== to >>>>")
     for old, new in blocks:
         if changed.count(old) != 1:
-            raise ValueError(f"{change}: stands {changed.count(old)} times in {source}, and must once:\n{old}")
+            raise ValueError(f"{change}: these lines occur {changed.count(old)} times in {source}, but must occur once:\n{old}")
         changed = changed.replace(old, new)
     outer = CLEAR.search(changed)
     if outer:
