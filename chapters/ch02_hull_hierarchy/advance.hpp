@@ -1,7 +1,7 @@
 // The first contact of two moving models, and the features that are in contact then.
 #pragma once
 
-#include "ch02_hull_hierarchy/first_reach.hpp"
+#include "ch02_hull_hierarchy/time_of_contact.hpp"
 
 namespace fc::hulls {
 

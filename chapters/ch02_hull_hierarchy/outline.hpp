@@ -15,8 +15,7 @@ struct Outline {
       8;  // number of points on the rim that stand for a cap, the farthest along the direction first
   std::array<Vec3, kRim> corners;  // m, shape axes; of a cap anticlockwise as seen from outside
   int count = 0;                   // kRim, 2 or 1
-  Vec3 normal =
-      Vec3::UnitZ();  // unit, outward, of the cap or of the side along its line; not set for a point
+  Vec3 normal = Vec3::UnitZ();     // unit, outward, of the cap or of the side along its line; not of a point
   ca::FeatureKind kind = ca::FeatureKind::vertex;
   // Faces: 0 the lower cap, 1 the upper, 2 the side. Edges: 0 the lower rim, 1 the upper. Vertex: 1, the
   // apex.

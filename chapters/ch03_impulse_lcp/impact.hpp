@@ -57,7 +57,7 @@ inline double kinematic_work(std::span<const RigidBody> bodies, const Contact& c
   return kinematic_work(bodies, contact, Vec3(impulse * contact.normal));
 }
 
-// The speed below which a contact of this set does not count as approaching, in m/s: the round-off of v =
+// The speed below which a contact of this set does not count as approaching, in m/s: the round-off of
 // n.(v_B - v_A), 1e-12 of the fastest of the touching points (each |velocity| + |spin| |arm|). resolve_impact
 // takes the fastest of the whole instant, since speeds that have cancelled leave their round-off.
 double approach_rounding(std::span<const RigidBody> bodies, std::span<const Contact> contacts);

@@ -7,8 +7,7 @@ namespace fc::hulls::clear {
 namespace {
 
 // ANCHOR: build
-constexpr std::size_t kKeepAll =
-    24;  // points: up to this many, finding the inner ones costs more than looking at them
+constexpr std::size_t kKeepAll = 24;  // points: of this few, finding the inner ones costs more than it saves
 
 Eigen::AlignedBox3d box_of(const std::vector<Vec3>& points) {
   Eigen::AlignedBox3d box;

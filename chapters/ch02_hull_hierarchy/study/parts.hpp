@@ -38,7 +38,7 @@ StudyCase study_case(const Shape& shape, const StudyOptions& options, bool with_
 constexpr double kStudyTolerance = 1e-6;
 
 // The options that hulls::advance would use.
-ReachOptions reach_options(double tolerance);
+TocOptions toc_options(double tolerance);
 
 // The value that is at least as large as this share of the numbers; 0 if there are none.
 double quantile(std::vector<double> values, double share);

@@ -31,9 +31,9 @@ struct Search {
   const ca::Motion& motion_a;
   const HullModel& b;
   const ca::Motion& motion_b;
-  const ReachOptions& options;
+  const TocOptions& options;
   const StudySearchOptions& study;
-  StudyReach reach{};
+  StudyTimeOfContact toc{};
   bool found = false, given_up = false;
   double end = options.interval;  // s: a pair that is clear until then need not be kept. Falls to the contact
   ca::PairPose pose{motion_a, motion_b, 0};
@@ -45,7 +45,7 @@ struct Search {
   bool leaves(const Pair& pair) const { return node_a(pair).leaf() && node_b(pair).leaf(); }
   bool far_apart(const Pair& pair) const { return pair.gap - options.target > kFarApart * radii(pair); }
   bool give_up() { return given_up = given_up || exhausted(); }
-  bool exhausted() const { return reach.node_pairs + reach.leaf_pairs >= options.max_pairs; }
+  bool exhausted() const { return toc.node_pairs + toc.leaf_pairs >= options.max_pairs; }
 
   // looking at a pair
   // ------------------------------------------------------------------------------------------------
@@ -84,11 +84,11 @@ struct Search {
     ca::GjkResult& g = look.gjk = ca::distance(hull_a, hull_b, pose, {options.slack / 4, 0.05, 128});
     const bool both_leaves = leaves(pair);
     if (both_leaves && g.lower <= options.target) g = leaf_distance(hull_a, hull_b, pose, options.tolerance);
-    ++(both_leaves ? reach.leaf_pairs : reach.node_pairs);
+    ++(both_leaves ? toc.leaf_pairs : toc.node_pairs);
     const double room = g.lower - options.target;
     if (room > 0) {
       look.step = (1 - kShorter) * safe_step(pair, hull_a, hull_b, g.normal, t, room);
-      ++reach.advances;
+      ++toc.advances;
     }
     // Leaves that overlap by rounding have no meaningful upper bound: then the lower one decides.
     const bool at_target =
@@ -103,7 +103,7 @@ struct Search {
   void contact(const Pair& pair, double t, const ca::GjkResult& gjk) {
     found = true;
     end = t;
-    reach.pair = {pair.a, pair.b, gjk};
+    toc.pair = {pair.a, pair.b, gjk};
   }
 
   std::array<Pair, 2> children(const Pair& pair) const {
@@ -196,8 +196,8 @@ struct Search {
   // C2A: which gaps are worth opening, from round to round.
   double share_of_round(double last_step) const {
     if (study.order == Order::global) return kInfinity;
-    if (reach.rounds > 6 || last_step <= 0.005 * options.interval) return 0;
-    return reach.rounds <= 3 ? 3 : 0.5;
+    if (toc.rounds > 6 || last_step <= 0.005 * options.interval) return 0;
+    return toc.rounds <= 3 ? 3 : 0.5;
   }
 
   void settle(Round& round, const Pair& pair, const Look& now) {
@@ -227,7 +227,7 @@ struct Search {
     double t = 0, last_step = options.interval;
     Pair last{};
     while (t < end && !give_up()) {
-      ++reach.rounds;
+      ++toc.rounds;
       Round round{t, options.interval - t, kInfinity, share_of_round(last_step), last};
       // The pair that decided the last step may well decide this one: with its step there is less to look at.
       if (leaves(last)) settle(round, last, look(last, t));
@@ -250,11 +250,13 @@ struct Search {
     if (study.order == Order::global || study.order == Order::controlled) in_rounds();
     if (given_up &&
         study.order == Order::depth_first) {  // an earlier contact may still be waiting: nothing is proved
-      reach.status = Reach::Status::limit;
-      reach.time = 0;
+      toc.status = TimeOfContact::Status::limit;
+      toc.time = 0;
     } else {
-      reach.status = found ? Reach::Status::reached : given_up ? Reach::Status::limit : Reach::Status::clear;
-      reach.time = end;
+      toc.status = found      ? TimeOfContact::Status::reached
+                   : given_up ? TimeOfContact::Status::limit
+                              : TimeOfContact::Status::clear;
+      toc.time = end;
     }
   }
 };
@@ -274,12 +276,12 @@ const char* name_of(Fate fate) {
   return names[static_cast<int>(fate)];
 }
 
-StudyReach study_reach(const HullModel& a, const ca::Motion& motion_a, const HullModel& b,
-                       const ca::Motion& motion_b, const ReachOptions& options,
-                       const StudySearchOptions& study) {
+StudyTimeOfContact study_time_of_contact(const HullModel& a, const ca::Motion& motion_a, const HullModel& b,
+                                         const ca::Motion& motion_b, const TocOptions& options,
+                                         const StudySearchOptions& study) {
   Search search{a, motion_a, b, motion_b, options, study};
   search.run();
-  return search.reach;
+  return search.toc;
 }
 
 }  // namespace fc::hulls

@@ -58,15 +58,15 @@ struct StudySearchOptions {
   std::vector<Visit>* visits = nullptr;  // receives each look; null: none
 };
 
-struct StudyReach : Reach {
+struct StudyTimeOfContact : TimeOfContact {
   std::int64_t rounds = 0;  // global, controlled: how often the hierarchy was gone through from the roots
 };
 
-// The first time at which two models come to the target gap: the same as first_reach and clear::search,
+// The first time at which two models come to the target gap: the same as time_of_contact and clear::search,
 // with the same guarantee: never late, whatever the options. Kept plain: it saves no time by reusing storage,
 // or by lanes.
-StudyReach study_reach(const HullModel& a, const ca::Motion& motion_a, const HullModel& b,
-                       const ca::Motion& motion_b, const ReachOptions& options,
-                       const StudySearchOptions& study);
+StudyTimeOfContact study_time_of_contact(const HullModel& a, const ca::Motion& motion_a, const HullModel& b,
+                                         const ca::Motion& motion_b, const TocOptions& options,
+                                         const StudySearchOptions& study);
 
 }  // namespace fc::hulls

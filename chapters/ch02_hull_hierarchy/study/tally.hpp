@@ -14,19 +14,19 @@ constexpr std::int64_t kMostPairs = 3'000'000;  // of a query: then it counts as
 // What a search answered, query by query, and what it cost.
 struct Tally {
   std::vector<double> nodes, leaves, rounds, ns;
-  std::vector<Reach> answers;
+  std::vector<TimeOfContact> answers;
   std::int64_t given_up = 0;
 
   template <class Ask>
   void ask(const Ask& search) {
     const Stopwatch watch;
-    const auto reach = search();
+    const auto toc = search();
     ns.push_back(static_cast<double>(watch.ns()));
-    nodes.push_back(static_cast<double>(reach.node_pairs));
-    leaves.push_back(static_cast<double>(reach.leaf_pairs));
-    if constexpr (requires { reach.rounds; }) rounds.push_back(static_cast<double>(reach.rounds));
-    given_up += reach.status == Reach::Status::limit;
-    answers.push_back(reach);
+    nodes.push_back(static_cast<double>(toc.node_pairs));
+    leaves.push_back(static_cast<double>(toc.leaf_pairs));
+    if constexpr (requires { toc.rounds; }) rounds.push_back(static_cast<double>(toc.rounds));
+    given_up += toc.status == TimeOfContact::Status::limit;
+    answers.push_back(toc);
   }
 };
 
@@ -43,8 +43,8 @@ extern const std::vector<Column> kTallyColumns;
 std::vector<Cell> cells(const Tally& tally);
 
 // Runs every motion: by the search in four lanes that the chapters use, or by one of the study's.
-Tally by_lanes(const Model& model, const std::vector<MotionPair>& motions, const ReachOptions& reach);
-Tally by_study(const HullModel& model, const std::vector<MotionPair>& motions, const ReachOptions& reach,
+Tally by_lanes(const Model& model, const std::vector<MotionPair>& motions, const TocOptions& options);
+Tally by_study(const HullModel& model, const std::vector<MotionPair>& motions, const TocOptions& options,
                Order order, Bound bound);
 
 // Throws NumericalFailure if a search, where it did not give up, disagrees with another one.
