@@ -17,7 +17,7 @@ extern "C" {
 namespace fc {
 namespace {
 
-// Qhull insists on a stream for its messages: this one swallows them.
+// Qhull insists on a stream for its messages; this one discards them.
 FILE* silence() {
   static const std::unique_ptr<FILE, int (*)(FILE*)> sink(
       std::fopen("/dev/null", "w"), [](FILE* file) { return file ? std::fclose(file) : 0; });
@@ -65,7 +65,7 @@ class QhullRun {
   }
 
   // The facets, coplanar ones merged, as polygons whose corners are indices of points, counter-clockwise seen
-  // from outside. Nothing if the rim of a merged facet is not one ring.
+  // from outside. Empty if the rim of a merged facet is not one ring.
   std::optional<PolygonSoup> facets() {
     PolygonSoup soup;
     for (facetT* facet = qh_.facet_list; facet && facet->next; facet = facet->next) {
@@ -146,7 +146,7 @@ TriangleMesh compact(std::span<const Vec3> points, std::vector<std::array<int, 3
   return mesh;
 }
 
-// The facets as a mesh, if it is closed and no triangle turns its back to the outside.
+// The facets as a mesh, if it is closed and no triangle faces inward.
 std::optional<TriangleMesh> convex_mesh(std::span<const Vec3> points, PolygonSoup facets) {
   facets.vertices.assign(points.begin(), points.end());
   std::vector<std::array<int, 3>> triangles = triangulate(std::move(facets)).triangles;

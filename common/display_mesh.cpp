@@ -86,7 +86,8 @@ DisplayMesh turned_mesh(const Shape& shape) {
   return mesh;
 }
 
-// Each corner of each triangle for itself, with the triangle's normal: flat beside round parts.
+// Gives each triangle three vertices of its own, with its normal, so that it is drawn flat beside round
+// parts.
 DisplayMesh with_flat_normals(const DisplayMesh& mesh) {
   DisplayMesh flat;
   const auto at = [&](int v) {

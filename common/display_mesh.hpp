@@ -1,4 +1,4 @@
-// Shapes as triangles to look at. Nothing here takes part in a computation.
+// Shapes as triangles, for display only: nothing here takes part in a computation.
 #pragma once
 
 #include <array>

@@ -9,7 +9,8 @@
 
 namespace fc {
 
-// Where a value stands: a place in a file (1-based; 0 = not known), or the command line option that set it.
+// Where a value comes from: a place in a file (1-based; 0 = not known), or the command line option that set
+// it.
 struct SourceMark {
   std::string file;
   int line = 0;

@@ -1,4 +1,4 @@
-// Telling what a file is by its first bytes, so that a message can name it.
+// Recognises what a file is by its first bytes, so that a message can name it.
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -29,7 +29,7 @@ constexpr std::array kBeginnings = {
     Beginning{"\xfd\x37zXZ"sv, {"xz data", kUnpack, ""}},
     Beginning{"\x28\xb5\x2f\xfd"sv, {"zstd data", kUnpack, ""}},
     Beginning{"7z\xbc\xaf"sv, {"a 7z archive", kUnpack, ""}},
-    Beginning{"PK\x03\x04"sv, {"a zip archive", "unpack it first; of a 3MF model export a mesh", ""}},
+    Beginning{"PK\x03\x04"sv, {"a zip archive", "unpack it first; from a 3MF model, export a mesh", ""}},
     Beginning{"glTF"sv, {"a binary glTF model", kExport, ""}},
     Beginning{"Kaydara FBX"sv, {"an FBX model", kExport, ""}},
     Beginning{"; FBX"sv, {"an FBX model", kExport, ""}},
@@ -50,7 +50,7 @@ constexpr std::array kBeginnings = {
     Beginning{"\xfe\xff"sv, {"UTF-16 text", kEncode, ""}},
 };
 
-// The same without regard to capitals, after blanks, and as a word of its own where `whole`.
+// The same, ignoring case and leading blanks; `whole`: only as a word of its own.
 struct Word {
   std::string_view word;
   bool whole;

@@ -23,7 +23,7 @@ InputFile read_input_file(const std::filesystem::path& path, const char* wanted,
   if (!stream) file.fail("cannot be read; check its permissions");
   const auto check_size = [&](std::uintmax_t size) {
     if (size > largest)
-      file.fail("is larger than " + std::to_string(largest >> 20) + " MiB, and so hardly " + wanted +
+      file.fail("is larger than " + std::to_string(largest >> 20) + " MiB, too much for " + wanted +
                 "; check the path");
   };
   if (std::filesystem::is_fifo(status)) {  // what a shell makes of <(command)

@@ -1,5 +1,5 @@
-// What is wrong with a mesh, and making it ready: merging, removing, counting edges, turning what faces the
-// wrong way.
+// Finds what is wrong with a mesh, and prepares it: merges vertices, removes triangles, counts edges,
+// reverses what faces the wrong way.
 #include "common/mesh.hpp"
 
 #include <algorithm>
@@ -46,8 +46,8 @@ class Sets {
   std::vector<int> parent_;
 };
 
-// Triangles that are joined over edges of two, each with a side: whether it faces as the one that names its
-// set, or against it. The smaller set joins the larger one, so that no way to the name is long.
+// Triangles joined over edges of two. Each has a side: whether it faces like the triangle that names its set,
+// or against it. The smaller set joins the larger one, which keeps the paths to the name short.
 class Sides {
  public:
   explicit Sides(std::size_t count) : up_(count), against_(count, 0), size_(count, 1), torn_(count, false) {
@@ -67,7 +67,7 @@ class Sides {
     size_[name] += size_[other];
     torn_[name] = torn_[name] || torn_[other];
   }
-  // How many triangles face against most of their set, and how many sets cannot face one way at all.
+  // How many triangles face against most of their set, and how many sets cannot be oriented at all.
   std::pair<int, int> flipped_and_one_sided() const {
     std::vector<int> opposed(up_.size(), 0);
     for (int i = 0; i < static_cast<int>(up_.size()); ++i) {

@@ -51,28 +51,28 @@ struct PreparedMesh {
 // Reads Wavefront OBJ, STL (ASCII or binary) or PLY (ASCII or binary, both byte orders, faces or triangle
 // strips), by the file's extension. A text may begin with a byte order mark and end its lines with \n, \r\n or
 // \r. Polygons are split into triangles that cover them, concave ones too; colours, normals and other extras
-// are passed over. What the file holds is returned as it stands: an STL file repeats each vertex, and nothing
-// is merged or turned yet. Into `left_out` goes what else has a place in space, such as "3 lines" of an OBJ
+// are ignored. The file's content is returned as it stands: an STL file repeats each vertex, and nothing is
+// merged or reversed yet. `left_out` receives what else the file places in space, such as "3 lines" of an OBJ
 // file; it is empty otherwise. Throws InputError with the file's name and, in text formats, line and column:
-// not found, a folder, empty, unreadable, truncated, another format than its name says, a line that begins
+// not found, a folder, empty, unreadable, truncated, of another format than its name says, a line that begins
 // with an unknown word, an index out of range, a coordinate that is not finite or beyond 1e30 m, no triangles.
 // Memory is reserved only for what the file can hold, whatever its header announces.
 TriangleMesh load_mesh(const std::filesystem::path& file, std::string* left_out = nullptr);
 
 // Makes a mesh ready for collision: merges vertices at equal positions (exactly equal; -0 equals 0), drops
-// degenerate and duplicate triangles and unused vertices, turns what is inside out, and reports. The order of
-// what remains is kept, and positions are not moved.
+// degenerate and duplicate triangles and unused vertices, reverses inside-out components, and reports all of
+// it. What remains keeps its order, and positions do not move.
 //
-// Degenerate is a triangle with two equal corners, with corners exactly on one line (decided without
-// rounding), or so thin that its normal (b - a) x (c - a) is zero in doubles. Thin triangles beyond that
+// A triangle is degenerate if two corners are equal, if its corners lie exactly on one line (decided without
+// rounding), or if it is so thin that its normal (b - a) x (c - a) is zero in doubles. Thicker triangles
 // stay. A triangle on one line still counts for the edges: it may be what joins a long edge to the two short
 // ones beside it, so that nothing leaks.
 //
-// Solid is a mesh each of whose edges is used as often in one direction as in the other, and that encloses
-// more than the rounding of its volume. Edges of four triangles may belong to a solid (two cubes that share
-// an edge).
+// A mesh is solid if each edge is used as often in one direction as in the other, and if it encloses more
+// than the rounding of its volume. Edges of four triangles may belong to a solid (two cubes that share an
+// edge).
 //
-// Which way round, per component of a solid: if the whole signed volume is negative, all are reversed. A
+// The orientation of a solid's components: if the whole signed volume is negative, all are reversed. A
 // component that then still has a negative volume is a cavity if its bounding box lies in that of an outward
 // one, and stays; if not, it cannot be a cavity, and is reversed. The limit: an inside-out component beside,
 // not inside, another one but within that one's bounding box (a ball in the crook of an L) is taken for a

@@ -20,7 +20,7 @@ struct ReadMesh {
   std::string left_out;  // what else has a place in space: "3 lines, 2 points"
 };
 
-// Each takes the file over, and may change its bytes.
+// Each reader owns the file while it reads, and may change its bytes.
 ReadMesh read_obj(InputFile& file);
 ReadMesh read_stl(InputFile& file);
 ReadMesh read_ply(InputFile& file);

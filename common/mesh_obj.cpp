@@ -1,6 +1,6 @@
-// Wavefront OBJ: the lines "v x y z" and "f a b c ...". Of the other lines that the format knows, those about
-// looks and names are passed over, lines and points are counted and told, and free-form surfaces are refused.
-// A line that begins with anything else is refused: it may be geometry.
+// Wavefront OBJ: the lines "v x y z" and "f a b c ...". Of the format's other lines, those about appearance
+// and names are skipped, lines and points are counted and reported, and free-form surfaces are refused. A
+// line that begins with anything else is refused: it may be geometry.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -114,8 +114,8 @@ struct ObjReader {
     soup.sizes.push_back(size);
   }
 
-  // To the last line of a statement that is passed over. A name may end with a backslash by mistake, and the
-  // line below it must not be lost.
+  // Skips a statement to its last line. A name may end with a backslash by mistake, and the line below it
+  // must not be lost.
   void pass_over() {
     continues = false;
     while (cursor.line_continues() && !cursor.at_end()) {
@@ -134,14 +134,15 @@ struct ObjReader {
     if (keyword.empty()) return;
     if (is_one_of(keyword, kFreeForm))
       cursor.fail(in_quotes(keyword) +
-                  " belongs to a curve or surface by a formula, which is not read; export triangles");
+                  " belongs to a free-form curve or surface, which is not read; export triangles");
     if (keyword == "call" || keyword == "csh")
-      cursor.fail(in_quotes(keyword) + " would bring in another file, which is not done; export one file");
+      cursor.fail(in_quotes(keyword) +
+                  " would include another file, which is not supported; export one file");
     lines += keyword == "l";
     points += keyword == "p";
     if (keyword != "l" && keyword != "p" && !is_one_of(keyword, kPassedOver))
       cursor.fail("unknown keyword " + in_quotes(keyword) +
-                  ", not one of v, f, vn, vt, o, g, s, usemtl and what else OBJ has; correct it, or put # "
+                  "; OBJ has v, f, vn, vt, o, g, s, usemtl and others; correct it, or put # "
                   "before it to leave the line out");
     pass_over();
   }

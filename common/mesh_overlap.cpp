@@ -2,7 +2,7 @@
 // of the two that lies within the other, or flush with its surface. So we cut every edge where it meets another
 // part, go to the middle of each piece, from there a little way into the edge's triangle and under it, and ask
 // how often the surface winds around that point. Where parts keep clear of each other no edge is cut, and one
-// point tells whether one lies within the other.
+// point shows whether one lies within the other.
 #include "common/mesh_overlap.hpp"
 
 #include <algorithm>
@@ -20,8 +20,8 @@ using Tree = Eigen::KdBVH<double, 3, int>;
 // The depth under a surface at which we look, as a share of the mesh's extent: well above the rounding of
 // floats, 6e-8, so that parts drawn flush in a file of floats do not overlap.
 constexpr double kDepth = 1e-6;
-// The way from an edge into its triangle, in depths: so far that the point under it lies inside for every
-// wedge of more than 6 degrees.
+// The distance from an edge into its triangle, in depths: far enough that the point under it lies inside
+// every wedge of more than 6 degrees.
 constexpr double kWayIn = 10;
 
 // A ray from a point to infinity, and how often a surface winds around that point.
@@ -42,7 +42,7 @@ struct Ray {
   bool intersectObject(int t) {
     std::array<Vec3, 3> v;
     for (int i = 0; i < 3; ++i) v[i] = mesh.vertices[mesh.triangles[t][i]] - from;
-    int left = 0, right = 0;  // on how many edges' sides the ray certainly passes
+    int left = 0, right = 0;  // edges that the ray certainly passes on their left, right
     for (int i = 0; i < 3; ++i) {
       const Vec3 &a = v[i], &b = v[(i + 1) % 3];
       const double side = direction.dot(a.cross(b));
@@ -135,7 +135,7 @@ class Overlaps {
     }
   }
 
-  // The triangles of other parts near triangle t, of those parts of which it is not yet known that they overlap.
+  // The triangles near triangle t that belong to other parts not yet known to overlap.
   std::vector<int> near(const Part& part, int t) const {
     const Box own = box_of(mesh_, t);
     Near found{mesh_, Box(own.min().array() - 2 * depth_, own.max().array() + 2 * depth_)};
@@ -226,7 +226,7 @@ class Overlaps {
     for (Part* one : around) one->overlaps = true;
   }
 
-  // Whether some surface is so close that its rounding may have decided.
+  // Whether some surface is so close that rounding may have decided.
   bool is_on_surface(const std::vector<Part*>& parts, const Vec3& point) const {
     Near found{mesh_, Box(point.array() - depth_ / 2, point.array() + depth_ / 2)};
     for (const Part* part : parts) Eigen::BVIntersect(part->tree, found);

@@ -1,7 +1,7 @@
 // PLY (the Stanford polygon format), in text or binary of either byte order. The header describes the rows
 // that follow, in any order; of these we keep x, y, z of `vertex` and the list vertex_indices (or
-// vertex_index) of `face` and of `tristrips`. Other properties are passed over; rows of other elements, too,
-// and are told.
+// vertex_index) of `face` and of `tristrips`. Other properties are skipped; so are rows of other elements,
+// which are reported.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -218,7 +218,7 @@ class PlyReader {
     soup_.sizes.push_back(static_cast<int>(list_.size()));
   }
 
-  // Every three vertices in a row are a triangle, every second of them the other way round; -1 begins anew.
+  // Each three successive vertices are a triangle, every second one in reverse order; -1 begins a new strip.
   void add_strips(std::size_t row) {
     list_.push_back(-1);
     for (std::size_t begin = 0, i = 0; i < list_.size(); ++i) {

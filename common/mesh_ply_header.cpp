@@ -90,8 +90,8 @@ PlyHeader read_lines(const InputFile& file) {
   return header;
 }
 
-// The size of the header in bytes. The rows behind it may be binary, so that the header itself must say what ends
-// its last line: if \r alone ends the first one, a byte \n after the last one's \r belongs to the rows.
+// The size of the header in bytes. The rows after it may be binary, so the header itself must show what ends its
+// last line: if \r alone ends the first one, a byte \n after the last one's \r belongs to the rows.
 std::size_t header_size(const std::string& bytes) {
   const std::size_t first_end = std::min(bytes.find_first_of("\r\n"), bytes.size());
   const bool returns_alone = bytes[first_end] == '\r' && bytes[first_end + 1] != '\n';

@@ -47,7 +47,8 @@ struct PlyHeader {
   }
 };
 
-// Cuts the header off a file that begins with "ply", and reads it: the file's bytes are then the rows alone.
+// Reads the header of a file that begins with "ply", and removes it: the file's bytes are then the rows
+// alone.
 PlyHeader read_ply_header(InputFile& file);
 
 }  // namespace fc::mesh_formats

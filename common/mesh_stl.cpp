@@ -60,8 +60,8 @@ void expect(TextCursor& cursor, std::initializer_list<const char*> words) {
   }
 }
 
-// The rest of a line "solid NAME" or "endsolid NAME". Where the file has no line ends, triangles would be
-// taken for a name.
+// The rest of a line "solid NAME" or "endsolid NAME". Without line ends in the file, triangles would be taken
+// for a name.
 void pass_over_name(TextCursor& cursor) {
   bool after_facet = false;
   for (std::string_view word = cursor.word(); !word.empty(); word = cursor.word()) {
@@ -119,8 +119,8 @@ ReadMesh read_ascii(InputFile& file) {
 }
 
 // Many programs write binary files whose free text begins with "solid", so that word alone decides nothing.
-// The size that belongs to the number of triangles does; that number has a zero byte (up to 16 million of
-// them), so that where it does not fit, a file without one is a text.
+// The size that the number of triangles demands does. Where the size does not fit, a file without a zero byte
+// is text: every number up to 16 million has one.
 bool is_ascii(const InputFile& file) {
   const auto kind = file_kind(file.bytes);
   const bool is_binary =

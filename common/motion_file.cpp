@@ -18,7 +18,7 @@ namespace {
 using gltf::Element;
 using gltf::Json;
 
-// Okabe and Ito's colours, told apart with any kind of colour vision; as linear light, which glTF asks for.
+// Okabe and Ito's colours, distinct for any kind of colour vision; as linear light, which glTF asks for.
 constexpr std::array<std::array<double, 3>, 6> kBodyColours = {{{0.000, 0.168, 0.445},
                                                                 {0.791, 0.347, 0.000},
                                                                 {0.000, 0.342, 0.171},
@@ -34,7 +34,7 @@ constexpr std::size_t kMostArrows = 2000;  // at one time; further ones of that 
 
 }  // namespace
 
-// One recording on its way into a glTF file.
+// Writes one recording into a glTF file.
 class MotionFile {
  public:
   explicit MotionFile(const MotionRecording& recording) : r_(recording) {
@@ -155,7 +155,7 @@ class MotionFile {
       const Quat turn = Quat::FromTwoVectors(Vec3::UnitZ(), c.normal);
       const double share = largest > 0 ? std::max(kShortestArrow, c.size / largest) : 1;
       if (slot->times.empty() && t > 0) slot->key(0, c.point, turn, 0);
-      if (!slot->times.empty() && slot->times.back() == t) {  // it would have hidden just now
+      if (!slot->times.empty() && slot->times.back() == t) {  // it was to hide at this very time
         slot->times.pop_back();
         slot->points.resize(slot->points.size() - 3);
         slot->turns.resize(slot->turns.size() - 4);

@@ -7,7 +7,7 @@
 namespace fc {
 
 // The page viewer.html, which is built into the program, with the title and the bytes of a binary glTF file
-// in it: one file that needs nothing else.
+// embedded: it needs no other file.
 std::string motion_page(std::string_view title, std::string_view glb);
 
 }  // namespace fc

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kMostKeys = 1'000'000;
 // Viewers turn a body the shorter way round between two keys: they must be less than half a turn apart.
 constexpr double kTurnBetweenKeys = 0.5 * std::numbers::pi;  // rad
-// A body that turns faster than this many quarters between two frames is a blur at any rate.
+// A body that turns by more than this many quarters between two frames is a blur anyway.
 constexpr int kMostKeysBetween = 64;
 
 Quat turned(const RigidBody& body, double time) {
@@ -106,7 +106,7 @@ void MotionRecording::push(Body& body, double t, const Vec3& position, const Qua
     if (!(static_cast<float>(t) > last.t)) return;  // no later, as a float: the pose is the same to the eye
     const double same =
         q.x() * last.pose[3] + q.y() * last.pose[4] + q.z() * last.pose[5] + q.w() * last.pose[6];
-    if (same < 0) q.coeffs() = -q.coeffs();  // the same turn, and the near one of both to the last
+    if (same < 0) q.coeffs() = -q.coeffs();  // the same rotation; of q and -q, the one nearer to the last
   }
   Key key{static_cast<float>(t), {}, frame};
   for (int k = 0; k < 3; ++k) key.pose[k] = static_cast<float>(position[k]);
@@ -116,7 +116,7 @@ void MotionRecording::push(Body& body, double t, const Vec3& position, const Qua
 }
 
 void MotionRecording::thin_out() {
-  // The frames that stay: every second one of those that are left.
+  // Every second one of the remaining frames stays.
   std::vector<double> times;
   for (std::size_t k = 0; k < frame_times_.size(); k += 2) times.push_back(frame_times_[k]);
   frame_times_ = std::move(times);

@@ -11,9 +11,9 @@
 
 namespace fc {
 
-// Fed while a run goes on, written at its end. Times are in s and never decrease; a time that is not later
-// than the body's last key, as a float, adds no key. Throws std::invalid_argument for numbers that are not
-// finite and for bodies that it does not know.
+// Filled during a run, written at its end. Times are in s and never decrease; a time that is not later than
+// the body's last key, as a float, adds no key. Throws std::invalid_argument for numbers that are not finite
+// and for bodies that it does not know.
 class MotionRecording {
  public:
   // frame_dt: s between two frames.
@@ -25,13 +25,13 @@ class MotionRecording {
   // One of the convex hulls around a part of a shape, to be drawn at a level of its hierarchy (0: the whole).
   void add_hull(int shape, int level, const TriangleMesh& hull);
 
-  // The state of all bodies at a frame's time, in the order of the bodies. `spin` is what the body turns with
-  // from now on: between keys that are a quarter turn or more apart, more keys are put.
+  // The state of all bodies at a frame's time, in the order of the bodies. Each body turns with its `spin`
+  // from now on: between keys that are a quarter turn or more apart, further keys are added.
   void frame(double t, const std::vector<RigidBody>& bodies);
   // The state of one body just after an impact: its path has a kink there.
   void key(int body, double t, const RigidBody& state);
   // A contact at a point (m, world) with its unit normal; `size` is its impulse in N s. Shown as an arrow:
-  // for some frames after an impact, for one frame if it `rests`, for it comes again with the next.
+  // for some frames after an impact; for one frame if it `rests`, since the next frame reports it again.
   void contact(double t, const Vec3& point, const Vec3& normal, double size, bool rests = false);
   // A value of the curve at the last frame's time; curves of one group share their axes. The first frame
   // decides which curves there are.
@@ -49,7 +49,7 @@ class MotionRecording {
   struct Body {
     int shape;
     bool moves;
-    RigidBody last;  // and when:
+    RigidBody last;  // the latest state, at `time` (s)
     double time = 0;
     std::vector<Key> keys;
   };
@@ -83,8 +83,8 @@ class MotionRecording {
   std::vector<double> frame_times_;  // of the frames that are kept
   std::size_t keys_ = 0;
   long frames_ = 0;   // seen so far
-  long stride_ = 1;   // one of so many frames is kept
-  bool kept_ = true;  // the last frame was
+  long stride_ = 1;   // one of this many frames is kept
+  bool kept_ = true;  // whether the last frame was
 };
 
 }  // namespace fc

@@ -25,11 +25,11 @@ NumberText read_number(std::string_view text, double& value);
 
 // A number of a data file (mesh, table, matrix): the whole text in any form that strtod reads in the C
 // locale, so +3.0E+00, .5, 5. and 0x1p-3, too, rounded to the nearest double. Also nan and inf, and inf for
-// what is too large: the caller decides about these. False: it is none of these, and `value` is as it was.
+// what is too large: the caller decides about these. False: it is none of these, and `value` is unchanged.
 bool read_c_number(std::string_view text, double& value);
 
 // A whole number: [sign] digits. std::errc::invalid_argument: it is none (1.0 is not).
-// std::errc::result_out_of_range: it has too many digits. `value` is then as it was.
+// std::errc::result_out_of_range: it has too many digits. `value` is then unchanged.
 std::errc read_whole_number(std::string_view text, long long& value);
 
 }  // namespace fc

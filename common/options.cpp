@@ -1,4 +1,4 @@
-// Of the library, the only file that includes CLI11, which takes seconds to compile.
+// The library's only file that includes CLI11, which takes seconds to compile.
 #include "common/options.hpp"
 
 #include <CLI/CLI.hpp>
@@ -70,10 +70,9 @@ Options parse_options(int argc, char** argv, int chapter, const std::string& pur
       ->disable_flag_override();
   app.add_flag("--poses", options.poses, "Write poses.csv: every body at every frame (chapter 4 on)")
       ->disable_flag_override();
-  app.add_flag("--clear", options.clear, "Run on the clear versions of the text, instead of the fast ones")
+  app.add_flag("--clear", options.clear, "Run on the text's clear versions instead of the fast ones")
       ->disable_flag_override();
-  app.add_flag("--mine", options.mine,
-               "As --clear, on your own pieces where they pass ./run check, on the book's for the rest")
+  app.add_flag("--mine", options.mine, "Like --clear, but on your own pieces where they pass ./run check")
       ->disable_flag_override();
   app.add_flag("--quiet", options.quiet, "Print nothing but errors")->disable_flag_override();
   try {

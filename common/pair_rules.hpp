@@ -28,7 +28,7 @@ class PairRules {
                     shapes[static_cast<std::size_t>(shape_b)].restitution);
   }
 
-  // The list's value, or the geometric mean of the two shapes' own. Not two roots: of equal values the mean is exact.
+  // The list's value, or the geometric mean of the two shapes' own. Exact where the two are equal.
   double friction(const std::vector<Shape>& shapes, int shape_a, int shape_b) const {
     if (const PairSpec* pair = find(shape_a, shape_b); pair != nullptr && pair->friction)
       return *pair->friction;

@@ -79,8 +79,8 @@ std::vector<PieceUse> take_mine(const std::vector<PieceSlot>& slots, const std::
     } else {
       continue;  // not started
     }
-    say(fmt::format("--mine: your {} ({}) is not taken, but the book's: {}; ./run check {}", uses[i].number,
-                    slot.what, refused, slot.exercise.substr(0, 9)));
+    say(fmt::format("--mine: the book's version stands in for your {} ({}): {}; ./run check {}",
+                    uses[i].number, slot.what, refused, slot.exercise.substr(0, 9)));
   }
   if (std::none_of(uses.begin(), uses.end(), [](const PieceUse& use) { return use.mine; }))
     throw InputError(fmt::format(

@@ -1,5 +1,5 @@
-// The engine's core pieces: small functions that a learner writes in an exercise. A program that runs on them (--clear)
-// takes the book's clear versions; with --mine, the learner's where they pass `./run check`.
+// The engine's core pieces: small functions that a learner writes in an exercise. With --clear a program runs on the
+// book's clear versions of them; with --mine, on the learner's where they pass `./run check`.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,7 @@ namespace fc {
 struct PieceSlot {
   std::string exercise;  // "ch01/ex06_closest_point"
   std::string what;      // "the closest point of a simplex"
-  std::string type;  // of the function, as the compiler names it: a module made for another one is not taken
+  std::string type;  // of the function, as the compiler names it: a module made for another type is refused
   std::function<void(void*)> take;
 };
 
@@ -33,14 +33,15 @@ struct PieceUse {
 };
 std::vector<PieceUse> books(const std::vector<PieceSlot>& slots);
 
-// Puts the learner's functions into the slots, from a folder that exercises/check.py has filled. Of ch01/ex06_... it has
+// Puts the learner's functions into the slots, from a folder that exercises/check.py has filled. For ch01/ex06_... it
+// holds
 //
 //   ch01_ex06.so       the function, compiled, if its tests pass
 //   ch01_ex06.source   what it was compiled from: a line with the file's path, then its text
-//   ch01_ex06.refused  instead of both: in a line, why it is not taken
+//   ch01_ex06.refused  instead of both: one line that says why the piece is refused
 //
-// What is refused, and what has changed since it was checked, is told by `say`, a line each; the book's function stays.
-// Throws InputError if no function of the learner's is left.
+// `say` gets one line for each piece that is refused, or has changed since it was checked; there the book's function
+// stays. Throws InputError if none of the learner's functions is left.
 std::vector<PieceUse> take_mine(const std::vector<PieceSlot>& slots, const std::filesystem::path& folder,
                                 const std::function<void(const std::string&)>& say);
 
@@ -49,7 +50,7 @@ std::filesystem::path mine_folder();
 
 }  // namespace fc
 
-// In exMM_name.piece.cpp: hands a function over to the programs.
+// In exMM_name.piece.cpp: makes a function available to the programs.
 #define FC_PIECE(function)                     \
   extern "C" void* fc_piece() {                \
     return reinterpret_cast<void*>(&function); \

@@ -18,6 +18,6 @@ struct PolygonSoup {
 // ones become fans). Corners must be valid indices. A polygon that crosses itself becomes a fan.
 TriangleMesh triangulate(PolygonSoup soup);
 
-// The largest polygon that we split; cutting ears takes the square of its size.
+// The largest polygon that is split: the time for cutting ears grows with the square of its size.
 constexpr int kMaxCorners = 10'000;
 }  // namespace fc

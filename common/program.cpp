@@ -22,7 +22,7 @@ void print_error(const std::string& message) {
   std::fflush(stderr);
 }
 
-// What a failure says, behind the place in the scene that it is about.
+// A failure's message, after the place in the scene that it concerns.
 std::string failure_text(const std::exception& error, const Scene& scene) {
   if (dynamic_cast<const std::bad_alloc*>(&error))
     return scene.file.string() + ": the scene needs more memory than there is; make it smaller";
@@ -44,7 +44,7 @@ int run_scene(const Chapter& chapter, const Scene& scene, const RunContext& cont
     exit_code = chapter.run(scene, context, summary);
   } catch (const InputError&) {
     throw;                                 // the run found the input bad: there is nothing to sum up
-  } catch (const std::exception& error) {  // a NumericalFailure, or anything that no one foresaw
+  } catch (const std::exception& error) {  // a NumericalFailure, or anything unforeseen
     failure = one_line(failure_text(error, scene));
     print_error(failure);
   }
@@ -102,7 +102,7 @@ int run_sweep(const Chapter& chapter, const SceneSource& source, const Sweep& sw
   return exit_code;
 }
 
-// Fills the chapter's slots, if the options ask for it, and says with whose functions.
+// Fills the chapter's slots, if the options ask for it; returns whose functions they hold.
 std::vector<PieceUse> pieces_for(const Options& options, const Chapter& chapter) {
   if (!options.clear && !options.mine) return {};
   if (options.clear && options.mine)
@@ -116,7 +116,7 @@ std::vector<PieceUse> pieces_for(const Options& options, const Chapter& chapter)
 
 int run_with(const Options& options, const Chapter& chapter) {
   const SceneSource source{options.scene, options.sets, options.mesh_path, chapter.number};
-  // Under a sweep the scene is only complete, and only checked, with the swept value in it.
+  // In a sweep the scene is complete, and is checked, only with a swept value in it.
   Sweep sweep;
   SceneSource first = source;
   if (!options.sweep.empty()) {

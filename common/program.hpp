@@ -13,8 +13,8 @@
 
 namespace fc {
 
-// What a run says of itself: printed to standard output with units, written to summary.json, and, number by
-// number, the columns of sweep.csv. Entries keep their order.
+// A run's summary: printed to standard output with units, and written to summary.json; its numbers are the
+// columns of sweep.csv. Entries keep their order.
 class Summary {
  public:
   enum class Kind { value, time, note };
@@ -37,12 +37,12 @@ class Summary {
   void add_time(std::string name, std::int64_t ns) {
     entries_.push_back({std::move(name), ns, "ns", Kind::time});
   }
-  // A remark for people, which is no column of sweep.csv.
+  // A remark for people; not a column of sweep.csv.
   void add_note(std::string name, std::string text) {
     entries_.push_back({std::move(name), std::move(text), "", Kind::note});
   }
   void counter(std::string stage, std::int64_t runs, std::int64_t ns) {
-    Counter& added = counters_.emplace_back();  // a Counter that is moved in makes GCC 12 warn of its string
+    Counter& added = counters_.emplace_back();  // moving a Counter in makes GCC 12 warn about its string
     added = {std::move(stage), runs, ns};
   }
 
@@ -68,15 +68,15 @@ class Progress {
   int shown_percent_ = -1;
 };
 
-// What a chapter's run gets beside the scene.
+// What a chapter's run gets in addition to the scene.
 struct RunContext {
   std::string chapter;            // the program's name
-  std::filesystem::path out_dir;  // to write into; exists. The files are put in place when the run has ended
+  std::filesystem::path out_dir;  // exists; the run writes here, and its files are put in place at its end
   bool certificate = false;       // --certificate
   bool poses = false;             // --poses
   bool quiet = false;             // --quiet
   bool clear = false;             // --clear or --mine: run on the chapter's pieces
-  std::vector<PieceUse> pieces = {};  // whose they are, if so
+  std::vector<PieceUse> pieces = {};  // then: whose each piece is
 };
 
 // One line of --explain.
@@ -97,10 +97,9 @@ struct Chapter {
   std::function<std::vector<Effect>(const Scene&)> explain;
   std::function<int(const Scene&, const RunContext&, Summary&)> run;
   // Throws InputError for what only the built scene shows (bodies that overlap, a matrix that cannot be
-  // read); asked before a sweep begins. May be empty.
+  // read); called before a sweep begins. May be empty.
   std::function<void(const Scene&)> check = {};
-  std::vector<PieceSlot> pieces =
-      {};  // which its clear versions run on; none: it has no --clear and no --mine
+  std::vector<PieceSlot> pieces = {};  // of its clear versions; none: there is no --clear and no --mine
 };
 
 // The whole of main(): parses options, reads the scene, runs, sweeps or explains, prints, and maps failures

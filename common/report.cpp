@@ -46,7 +46,7 @@ Json header(const Chapter& chapter, const Scene& scene, int exit_code) {
   return json;
 }
 
-// With the list of all files that stand beside it, itself included.
+// Adds the list of all files beside it, itself included.
 void write(const std::filesystem::path& file, Json json) {
   std::ofstream stream(file, std::ios::binary);
   if (!stream) {
@@ -54,7 +54,7 @@ void write(const std::filesystem::path& file, Json json) {
                                           "; choose another folder by --out");
   }
   json["files"] = files_below(file.parent_path());
-  // Text that is not UTF-8 (a file's name may be anything) is replaced, not thrown upon.
+  // Text that is not UTF-8 (a file's name may be anything) is replaced; it does not throw.
   stream << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
   stream.close();
   if (!stream) throw std::runtime_error(file.filename().string() + ": cannot be written to the end");

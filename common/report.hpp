@@ -13,7 +13,7 @@ namespace fc {
 std::string summary_text(const Summary& summary);
 
 // summary.json: what was run, how it ended (`failure` is empty if it did not fail), the entries, and one
-// counter per stage. `files` lists what stands beside it: all of it is of this run.
+// counter per stage. `files` lists the files beside it, all of them from this run.
 void write_summary(const std::filesystem::path& file, const Chapter& chapter, const Scene& scene,
                    const Summary& summary, int exit_code, const std::string& failure);
 

@@ -46,7 +46,8 @@ fs::path make_aside(const fs::path& folder) {
   return name;
 }
 
-// The files that the run before lists in its summary.json, as far as they are plain names inside the folder.
+// The files that the previous run lists in its summary.json, as far as they are plain names inside the
+// folder.
 std::vector<fs::path> files_before(const fs::path& folder) {
   std::ifstream stream(folder / "summary.json", std::ios::binary);
   const auto json = nlohmann::json::parse(stream, nullptr, false);
@@ -83,7 +84,7 @@ std::vector<std::string> files_below(const fs::path& folder) {
   return files;
 }
 
-// Waits for the signals that end a program. A thread of its own may clean up as a signal handler may not.
+// Waits for the signals that end a program. A thread may clean up in ways that a signal handler may not.
 class ResultsFolder::Watch {
  public:
   explicit Watch(std::function<void(bool keep)> clean_up) : clean_up_(std::move(clean_up)) {
@@ -138,7 +139,7 @@ ResultsFolder::ResultsFolder(fs::path folder) : folder_(std::move(folder)), made
   aside_ = make_aside(folder_);
   watch_ = std::make_unique<Watch>([this](bool keep) {
     if (!keep || aside_.empty()) return remove_aside();
-    fmt::print(stderr, "stopped; what was done by then is in {}\n", one_line(aside_.string()));
+    fmt::print(stderr, "stopped; the results so far are in {}\n", one_line(aside_.string()));
   });
 }
 

@@ -1,4 +1,4 @@
-// The folder of a run's results, filled aside and put in place when the run has ended (contract 1.3).
+// The folder of a run's results: written aside, and put in place when the run has ended (contract 1.3).
 #pragma once
 
 #include <filesystem>
@@ -11,10 +11,10 @@ namespace fc {
 // The files below a folder, relative to it ("steps.csv", "ccd.tolerance=1e-4/steps.csv"), sorted.
 std::vector<std::string> files_below(const std::filesystem::path& folder);
 
-// Until put_in_place() the files of the run before stay as they are: the new ones are written into a folder
-// of their own inside of it, named .unfinished-XXXXXX, on the same file system. If the run is refused, or the
-// program is ended by Ctrl-C, SIGTERM or SIGHUP, that folder is removed, and with it the folders that were
-// made for the run; after SIGKILL it stays and may be deleted.
+// Until put_in_place() the previous run's files stay as they are: the new ones are written into a folder
+// inside it, named .unfinished-XXXXXX, on the same file system. If the run is refused, or the program is
+// ended by Ctrl-C, SIGTERM or SIGHUP, that folder is removed, and with it the folders that were made for the
+// run; after SIGKILL it stays and may be deleted.
 class ResultsFolder {
  public:
   // Makes the folder, with its parents. Throws InputError if that cannot be done, or it cannot be written.
@@ -23,13 +23,13 @@ class ResultsFolder {
 
   // Where the run writes; exists.
   const std::filesystem::path& aside() const { return aside_; }
-  // From now on a signal leaves what is aside, and says where it is: a sweep has finished values in it.
+  // From now on a signal keeps the folder aside, and prints where it is: it holds a sweep's finished values.
   void keep_if_killed();
-  // Moves every file into place. Files that the run before wrote, by the list in its summary.json, and this
-  // one did not, are removed, so that nothing of two runs stands side by side; files of anybody else stay.
-  // Throws InputError if something cannot be replaced, and says where the results are. A folder in the way of a
-  // file is found before the first file is moved, so nothing has changed then; if the move of one file fails
-  // later, that one and those after it stay aside.
+  // Moves every file into place. Files that the previous run wrote, by the list in its summary.json, and this
+  // one did not, are removed, so that results of two runs never mix; all other files stay. Throws InputError if
+  // something cannot be replaced, and says where the results are. A folder in the way of a file is found before
+  // the first file is moved, so nothing has changed then; if the move of one file fails later, that one and
+  // those after it stay aside.
   void put_in_place();
 
  private:

@@ -7,7 +7,8 @@
 namespace fc {
 
 // A body's centre of mass, orientation and velocities in the world, and its inverse inertia. A static body
-// has zero inverse mass and inertia, and does not move; a kinematic one has the same, and moves as it does.
+// has zero inverse mass and inertia, and does not move; a kinematic one has the same, and moves as the scene
+// says.
 struct RigidBody {
   Vec3 position = Vec3::Zero();         // m, the centre of mass
   Quat orientation = Quat::Identity();  // unit; turns the shape's own axes into world axes
@@ -23,7 +24,7 @@ struct RigidBody {
 
   // No impulse moves it: static or kinematic.
   bool is_static() const { return inverse_mass == 0; }
-  // Whether a degree of freedom was taken from it: something holds it, and takes its momentum there.
+  // Whether a degree of freedom was taken from it: something holds it there, and takes up its momentum.
   bool is_guided() const { return free_moves != Vec3::Ones() || free_turns != Vec3::Ones(); }
   Pose pose() const { return {orientation.toRotationMatrix(), position}; }
 
@@ -50,7 +51,7 @@ struct RigidBody {
     inertia_body = properties.inertia;
     inverse_inertia_body = properties.inertia.inverse();
   }
-  // After set_mass: takes degrees of freedom away. What is left of the inertia acts on the free turns alone.
+  // After set_mass: takes degrees of freedom away. The inverse inertia then acts on the free turns alone.
   void guide(const Vec3& moves, const Vec3& turns) {
     free_moves = moves;
     free_turns = turns;

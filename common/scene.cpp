@@ -45,8 +45,8 @@ StepSpec read_step(const Section& step) {
   return spec;
 }
 
-// What a scene must have beside its required keys: bodies and their shapes, or an LCP (chapter 3) or a linear
-// file (chapter 1) and none of them.
+// What a scene must have besides its required keys: bodies and their shapes; or, instead of these, an LCP
+// (chapter 3) or a linear file (chapter 1).
 void check_subject(const Section& scene, int chapter) {
   for (const char* instead : {"lcp", "linear"}) {
     if (!scene.has(instead)) continue;
@@ -69,7 +69,7 @@ void check_query_bodies(const Section& scene, const std::vector<BodySpec>& bodie
          fmt::format("a query needs exactly two bodies, this scene has {}; keep two", bodies.size()));
 }
 
-// Effects that are nothing but on: absent means off, and there is no second way to say so.
+// Effects without a value: an absent key means off, and there is no second way to say so.
 bool read_switch(const Section& root, const char* key) {
   if (!root.has(key)) return false;
   if (!root.get(boolean_value, key))

@@ -185,7 +185,7 @@ struct SceneSource {
   std::string swept = {};                        // --sweep: one more override, applied last
 };
 
-// Throws InputError.
+// Reads and checks a scene. Throws InputError.
 Scene read_scene(const SceneSource& source);
 
 }  // namespace fc

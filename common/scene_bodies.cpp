@@ -34,7 +34,7 @@ int shape_index(const Section& section, const char* key, const ShapeIndex& index
                                               in_quotes(name), in_quotes(nearest(name, names))));
 }
 
-// A name by which nothing else can be meant: a number is another body's, and `world` is no body.
+// A body's name, which must not mean anything else: a number belongs to another body, and `world` is no body.
 std::string read_name(const Section& body) {
   const std::string name = body.get(text_value, "name");
   const auto refuse_name = [&](const std::string& problem) {

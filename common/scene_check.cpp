@@ -114,7 +114,7 @@ class KeyChecker {
                        path.empty() ? "" : " in " + in_quotes(path), nearest_key(entry.key, pattern)));
   }
 
-  // A key that stands elsewhere, if the name is its own to the letter; else the nearest of those that may stand
+  // A key from elsewhere in the table, if the name matches it exactly; else the nearest key that may stand
   // here, those of other chapters included.
   std::string nearest_key(const std::string& name, const std::string& pattern) const {
     for (const SceneKey& key : scene_keys())

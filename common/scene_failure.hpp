@@ -1,4 +1,4 @@
-// A numerical failure that the scene can do something about.
+// A numerical failure that a change of the scene may cure.
 #pragma once
 
 #include <string>
@@ -9,7 +9,8 @@
 namespace fc {
 
 // The message says what to change, and `key` names the scene key that it is about ("solver.limit"): the line that
-// a program prints begins with the place of that key. FC_CHECK, with a line of ours, is for our own mistakes.
+// a program prints begins with the place of that key. FC_CHECK, which names a line of the source, is for our own
+// mistakes.
 class SceneFailure : public NumericalFailure {
  public:
   SceneFailure(const std::string& message, std::string key)

@@ -1,4 +1,4 @@
-// The keys that give a body its own way of moving: `fixed` and `path`.
+// The keys that restrict or prescribe a body's motion: `fixed` and `path`.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -11,7 +11,7 @@ namespace fc {
 namespace {
 
 constexpr double kLargest = 1e9;      // of a path's cells: the range of positions in scenes
-constexpr double kAlongFixed = 1e-9;  // of a spin: less about a fixed axis is the rounding of its numbers
+constexpr double kAlongFixed = 1e-9;  // of a spin: less than this about a fixed axis is rounding
 
 double cell(const ReadTable& table, const ReadTable::Row& row, int column) {
   const double value = table.number(row, column);

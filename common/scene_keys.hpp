@@ -54,16 +54,16 @@ struct SceneKey {
   std::string example;  // a value, as written in a scene
   std::vector<std::string> choices;
   int except = 0;                // a chapter between first and last in which it would have no effect
-  std::string idle_beside = {};  // the key at the top beside which it would have none, or ""
+  std::string idle_beside = {};  // a top-level key beside which it would have none either, or ""
 
   std::string last_name() const { return path.substr(path.rfind('.') + 1); }
   bool known_in(int chapter) const { return first <= chapter && chapter <= last && chapter != except; }
   std::string type_text() const;      // "number", "[x, y, z]", ...
   std::string chapters_text() const;  // "chapters 1 and 2 and chapter 4 on"
-  std::string meaning_text() const;   // the meaning, and beside which key there is none
+  std::string meaning_text() const;   // the meaning, and the key beside which it has no effect
 };
 
-// A key, or a key's value, that a later chapter or a chapter's complete form will bring.
+// A key, or a value of one, that comes with a later chapter, or with a chapter's complete form.
 struct LaterName {
   std::string name;  // "friction", "solver.method: lemke"
   int chapter = 0;

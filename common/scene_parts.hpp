@@ -1,5 +1,5 @@
-// The readers of a scene's parts, from a tree whose keys and values the table has allowed. Each checks what
-// concerns several keys at once and throws InputError.
+// The readers of a scene's parts. The tree's keys and values have been checked against the table one by one;
+// each reader checks what concerns several keys at once, and throws InputError.
 #pragma once
 
 #include "common/scene.hpp"
@@ -22,8 +22,8 @@ std::vector<PairSpec> read_pairs(const Section& scene, const std::vector<ShapeSp
 std::vector<BodySpec> read_bodies(const Section& scene, const std::vector<ShapeSpec>& shapes,
                                   const SceneSource& source);
 
-// What makes a body move in its own way: `fixed`, `path`. They are in the specification's place of other
-// keys, and must not contradict them.
+// The keys that restrict or prescribe a body's motion. Refuse what contradicts the body's other keys, which
+// `spec` already has.
 void read_freedom(const Section& body, BodySpec& spec);
 void read_path(const Section& body, const SceneSource& source, BodySpec& spec);
 

@@ -35,12 +35,12 @@ std::string description(const YamlNode& node) {
   }
   const std::size_t first = node.text.find_first_not_of("+-.");
   if (first != std::string::npos && node.text[first] >= '0' && node.text[first] <= '9') {
-    return in_quotes(node.text) + ", which is no plain decimal number";  // 010, 0x10, 1_000, 0,5
+    return in_quotes(node.text) + ", which is not a plain decimal number";  // 010, 0x10, 1_000, 0,5
   }
   return "the text " + in_quotes(node.text);
 }
 
-// Below it, the digits that are left say nothing certain of a direction.
+// A shorter vector has too few digits left to be certain of a direction.
 constexpr double shortest_direction = 1e-9;
 
 bool is_plain_number(const YamlNode& node) {

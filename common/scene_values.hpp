@@ -22,7 +22,7 @@ Vec3 vector_value(const YamlNode& node, const SceneKey& key);
 std::array<int, 3> integers_value(const YamlNode& node, const SceneKey& key);
 Quat quaternion_value(const YamlNode& node, const SceneKey& key);  // normalised
 Vec3 direction_value(const YamlNode& node, const SceneKey& key);   // a vector3, made unit; not zero
-// The number of a body that is called by its number or its name. `names`: of all bodies; empty for none.
+// A body's number, from its number or its name. `names`: one for each body; empty: it has none.
 int body_value(const YamlNode& node, const SceneKey& key, const std::vector<std::string>& names);
 std::vector<std::string> words_value(const YamlNode& node, const SceneKey& key);
 Mat3 inertia_value(const YamlNode& node, const SceneKey& key);

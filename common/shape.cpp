@@ -12,12 +12,11 @@
 namespace fc {
 namespace {
 
-// How far an explicit inertia may miss symmetry, relative to its largest entry: a rotation of a diagonal
-// matrix in doubles stays well below it. Beyond it, the numbers are a mistake.
+// How far an explicit inertia may deviate from symmetry, relative to its largest entry: a rotation of a
+// diagonal matrix in doubles stays well below it. Beyond it, the numbers are a mistake.
 constexpr double kSymmetryTolerance = 1e-9;
 // How far the largest principal moment may exceed the sum of the others, relative to it. A flat plate has
-// equality, and people write such numbers with three digits; the consequence is only a plate that is slightly
-// flatter than flat.
+// equality, and people write such numbers with three digits.
 constexpr double kTriangleTolerance = 1e-3;
 
 std::string called(const ShapeSpec& spec) {
@@ -28,7 +27,8 @@ void require(bool condition, const SourceMark& where, const std::string& message
   if (!condition) throw InputError(where, message);
 }
 
-// What the geometry alone says: the core in the shape's own frame, and the matter in it at 1 kg/m^3.
+// What follows from the geometry alone: the core in the shape's own frame, and its mass properties at 1
+// kg/m^3.
 struct Geometry {
   Shape::Kind kind = Shape::Kind::sphere;
   TriangleMesh core;
@@ -128,7 +128,7 @@ Geometry geometry_of(const MeshSpec& mesh, const ShapeSpec& spec) {
   return geometry;
 }
 
-// Adds matter that stands turned and moved in the whole's frame.
+// Adds a part's mass properties, rotated and moved into the whole's frame.
 void add_mass(MassProperties& whole, const MassProperties& part, const Mat3& rotation, const Vec3& position) {
   const Vec3 center = rotation * part.center_of_mass + position;
   const auto about = [](const Vec3& d) { return d.squaredNorm() * Mat3::Identity() - d * d.transpose(); };
@@ -169,7 +169,7 @@ Geometry geometry_of(const CompoundSpec& compound, const ShapeSpec& spec) {
   return whole;
 }
 
-// The centre of a surface that encloses nothing, not even by its hull: the mean over its area.
+// The centre of a surface that encloses no volume, nor does its hull: the mean over its area.
 Vec3 area_centroid(const TriangleMesh& mesh) {
   double area = 0;
   Vec3 sum = Vec3::Zero();

@@ -30,10 +30,10 @@ struct Shape {
   // Cylinder and cone: 2 vertices on the axis, bottom and top, and for each the radius in m of a disk about
   // it, across the axis (0: none); the core is the convex hull of both disks. Empty for all others.
   std::vector<double> disks;
-  Vec3 axis = Vec3::UnitZ();  // unit: of a sphere, capsule, cylinder or cone; another than z only of a part
-  // Compound: its convex parts, each where it is in the whole: relative to the whole's centre of mass and
-  // along its axes. Nothing but kind, core, disks, axis and radius means anything of a part. The whole's own
-  // core is that of all parts together. Empty for all others.
+  Vec3 axis = Vec3::UnitZ();  // unit: of a sphere, capsule, cylinder or cone; not z only in a part
+  // Compound: its convex parts, relative to the whole's centre of mass and along its axes. Of a part only
+  // kind, core, disks, axis and radius are set. The whole's own core is that of all parts together. Empty for
+  // all other kinds.
   std::vector<Shape> parts;
   double radius = 0;    // m, rounding radius around the core
   bool solid = true;    // has an inside (false: a mesh that is only its surface)
@@ -49,11 +49,11 @@ struct Shape {
   bool convex() const { return kind != Kind::mesh && kind != Kind::compound; }
 };
 inline std::ostream& operator<<(std::ostream& out, Shape::Kind kind) {
-  constexpr const char* kNames[] = {"sphere", "capsule", "cylinder", "cone", "box", "hull", "mesh"};
+  constexpr const char* kNames[] = {"sphere", "capsule", "cylinder", "cone", "box", "hull", "mesh", "compound"};
   return out << kNames[static_cast<int>(kind)];
 }
 
-// The box along the shape's axes, about its centre of mass, that just holds it, m.
+// The smallest box along the shape's axes that holds it; m, relative to the centre of mass.
 Eigen::AlignedBox3d bounds_of(const Shape& shape);
 
 // Builds one shape. Its mass and centre of mass, in this order:

@@ -75,8 +75,8 @@ Cell counter_cell(const Summary& summary, const std::string& stage, std::int64_t
   return "none";
 }
 
-// Columns are known by their names: where a summary tells a quantity by the name of the swept key (the
-// envelope that the run then had), it is called otherwise.
+// Column names must be unique: where a summary has a value by the name of the swept key (the envelope that
+// the run used), its column is renamed.
 void name_apart(std::vector<Column>& columns) {
   std::set<std::string> taken;
   for (Column& column : columns)

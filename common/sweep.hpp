@@ -29,7 +29,7 @@ struct SweepRun {
 };
 
 // One row per run: the value, every entry of the summaries, runs and time of every counter, the exit code.
-// What a run's summary lacks is "none".
+// A value that a run's summary lacks is "none".
 void write_sweep(const std::filesystem::path& file, const Sweep& sweep, const std::vector<SweepRun>& runs);
 
 }  // namespace fc

@@ -17,7 +17,7 @@ struct ReadTable {
   };
 
   std::string file;
-  std::vector<Row> rows;  // lines without a word are passed over
+  std::vector<Row> rows;  // blank lines are skipped
 
   // Where a cell starts.
   SourceMark mark(const Row& row, int column) const;
@@ -25,8 +25,8 @@ struct ReadTable {
   double number(const Row& row, int column) const;
 };
 
-// Reads a table whose header must be the given one: a text with any line ends, a byte order mark or none.
-// Throws InputError for a file that cannot be read or is no text, another header (naming the first name that
+// Reads a table whose header must be `header`: text with any line ends, with or without a byte order mark.
+// Throws InputError for a file that cannot be read or is not text, another header (naming the first name that
 // differs), a row with another number of cells, or a quote that does not end in its cell.
 ReadTable read_table(const std::filesystem::path& file, const std::string& header);
 

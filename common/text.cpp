@@ -8,7 +8,7 @@
 namespace fc {
 
 std::string one_line(std::string_view text) {
-  // A byte order mark, a blank without a break, a blank without a width: nobody sees them in a message.
+  // A byte order mark, a no-break space, a zero-width space: invisible in a message.
   constexpr std::array<std::string_view, 3> unseen = {"\xEF\xBB\xBF", "\xC2\xA0", "\xE2\x80\x8B"};
   std::string line;
   std::size_t unseen_end = 0;

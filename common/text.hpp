@@ -8,8 +8,8 @@
 
 namespace fc {
 
-// The text with every control character, and blanks that nobody sees, written as \xNN, so that a message stays
-// one line whatever it quotes.
+// The text with every control character and invisible blank written as \xNN, so that a message stays one line
+// whatever it quotes.
 std::string one_line(std::string_view text);
 
 // 'text' in quotes for a message, on one line and shortened when long.

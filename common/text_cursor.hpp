@@ -9,7 +9,7 @@
 
 namespace fc {
 
-// Goes through the text of a file that make_text has been over, word by word. The file must outlive it.
+// Reads a file's text word by word, after make_text. The file must outlive it.
 class TextCursor {
  public:
   explicit TextCursor(const InputFile& file, int first_line = 1) : file_(&file), line_(first_line) {}
@@ -25,8 +25,8 @@ class TextCursor {
   std::string_view word();
   // The next word of this or a later line; empty at the file's end.
   std::string_view word_across_lines();
-  // A word, the last or the next one, as a number or a whole number. `what` names it in the message if it is
-  // none.
+  // The given word, or the next one, as a number or a whole number. `what` names it in the message if it is
+  // not one.
   double number(std::string_view word, const char* what) const;
   double number(const char* what) { return number(word(), what); }
   long long integer(std::string_view word, const char* what) const;

@@ -1,4 +1,4 @@
-// What an exercise has where a learner's code will be.
+// The placeholder for a learner's code in an exercise.
 #pragma once
 
 #include <stdexcept>

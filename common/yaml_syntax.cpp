@@ -9,11 +9,11 @@
 namespace fc {
 namespace {
 
-// yaml-cpp lets a quote run to the end of the file without a word. This pass adds a comment at the end, with
-// a character that no text file of ours has: a value that contains it has a quote that never ended.
+// yaml-cpp lets a quote run to the end of the file without an error. This pass adds a comment at the end,
+// with a character that no text file of ours has: a value that contains it has a quote that never ended.
 constexpr char end_mark = '\x01';
 
-// What the parser finds while it goes on without an error of its own.
+// A mistake that this pass finds and the parser itself accepts.
 struct Problem {
   YAML::Mark mark;
   std::string message;
@@ -63,8 +63,7 @@ std::string with_end_comment(const std::string& text) {
 void check_yaml_syntax(const std::string& text, const YamlOrigin& origin, bool is_option_value) {
   const auto place = [&](const YAML::Mark& mark) -> YamlPlace {
     if (is_option_value || mark.is_null()) return {origin};
-    // The parser may notice at the very end, in the comment that we added: tell the text's own
-    // last line.
+    // The parser may notice only in the comment that we added: report the text's own last line.
     const auto last_line =
         static_cast<int>(std::count(text.begin(), text.end(), '\n')) + (text.ends_with('\n') ? 0 : 1);
     return mark.line < last_line ? YamlPlace{origin, mark.line + 1, mark.column + 1}

@@ -1,4 +1,4 @@
-// The first pass over a YAML text: is it one at all?
+// The first pass over a YAML text: whether its syntax is valid.
 #pragma once
 
 #include <string>
@@ -11,11 +11,11 @@ namespace fc {
 // the stack.
 inline constexpr int deepest_yaml = 64;
 
-// The text as both passes read it: with a comment at its end that betrays a quote that never ends.
+// The text as both passes read it: with a comment added at its end, which reveals a quote that never ends.
 std::string with_end_comment(const std::string& text);
 
-// Refuses wrong syntax, a quote that never ends, a second document, and nesting beyond the limit. Of an
-// option's value no lines are told.
+// Refuses wrong syntax, a quote that never ends, a second document, and nesting beyond the limit. Messages
+// about an option's value name no line.
 void check_yaml_syntax(const std::string& text, const YamlOrigin& origin, bool is_option_value);
 
 }  // namespace fc

@@ -121,7 +121,7 @@ class TreeBuilder : public YAML::EventHandler {
     }
     Open& parent = open_.back();
     parent.node->height = std::max(parent.node->height, node->height + 1);
-    if (parent.node->height > deepest_yaml) {  // a chain of aliases; the syntax check has seen to the rest
+    if (parent.node->height > deepest_yaml) {  // a chain of aliases; the syntax check covers the rest
       refuse(place, "aliases nest more than " + std::to_string(deepest_yaml) + " deep; write the values out");
     }
     if (parent.node->kind == YamlNode::Kind::list) {

@@ -15,7 +15,7 @@
 namespace fc {
 
 struct YamlNode;
-using YamlPtr = std::shared_ptr<const YamlNode>;  // aliases share nodes; nobody changes one
+using YamlPtr = std::shared_ptr<const YamlNode>;  // aliases share nodes, which never change
 
 // The file, or the option, that nodes came from; shared by all of them.
 using YamlOrigin = std::shared_ptr<const std::string>;
@@ -55,8 +55,8 @@ struct YamlNode {
 // oversized one, and a folder.
 std::string read_text_file(const std::filesystem::path& file);
 
-// Parses one document. Refuses wrong syntax, a key given twice, tags, and nesting beyond any scene's need. Of
-// an option's value no lines and columns are kept.
+// Parses one document. Refuses wrong syntax, a key given twice, tags, and nesting beyond any scene's need. An
+// option's value keeps no lines and columns.
 YamlPtr parse_yaml(const std::string& text, const YamlOrigin& origin, bool is_option_value = false);
 
 // The tree with the value at `path` ("bodies.0.velocity") replaced, or added to a map. Keys that contain dots

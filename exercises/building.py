@@ -1,4 +1,4 @@
-"""What check.py and see.py share: which exercises there are, and a build that says what it is doing."""
+"""What check.py and see.py share: the list of exercises, and a build that reports its progress."""
 
 import os
 import re
@@ -10,7 +10,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 COMPILED = re.compile(r"(?:\[ *(\S+)\] )?Building CXX object (\S+)")  # what CMake's generators print
-EVERY = 15  # seconds after which a long build says again how far it is, where there is no terminal
+EVERY = 15  # seconds between two reports of a long build, where there is no terminal
 
 
 @dataclass
@@ -24,7 +24,7 @@ class Exercise:
 
     @property
     def dotted(self) -> str:
-        """1.2, as the statements call it."""
+        """Its number in the texts: 1.2."""
         return f"{int(self.chapter[2:])}.{int(self.number[2:])}"
 
     @property
@@ -48,7 +48,7 @@ def known_exercises(root: Path) -> list[Exercise]:
 
 
 def select(exercises: list[Exercise], wanted: str | None) -> list[Exercise]:
-    """Those that ch01 or ch01/ex01 (or ch01/ex01_door) names; all without a name."""
+    """The exercises that ch01 or ch01/ex01 (or ch01/ex01_door) names; without a name, all."""
     if wanted is None:
         return exercises
     chapter, _, number = wanted.strip("/").partition("/")
@@ -56,7 +56,7 @@ def select(exercises: list[Exercise], wanted: str | None) -> list[Exercise]:
 
 
 def what_is_built(object_file: str) -> str:
-    """In a learner's words what an object file is a part of."""
+    """What an object file is part of, in words for a learner."""
     if chapter := re.match(r"chapters/ch0*(\d+)_", object_file):
         return f"chapter {chapter[1]}'s library (once, a minute or two)"
     if object_file.startswith("common/"):
@@ -67,7 +67,7 @@ def what_is_built(object_file: str) -> str:
 
 
 class Progress:
-    """Says on standard error what is built as soon as it is: a line for each part, and how far the whole is (on a terminal
+    """Reports a build on standard error as it goes on: a line for each part, and the progress of the whole (on a terminal
     always, in place; elsewhere every now and then)."""
 
     def __init__(self) -> None:
@@ -97,7 +97,7 @@ class Progress:
 
 
 def build(folder: Path, target: str) -> tuple[bool, str]:
-    """Whether the target could be built, and all that was printed."""
+    """Builds a target. Returns whether that succeeded, and all output."""
     command = ["cmake", "--build", folder, "--target", target, "--parallel", str(os.cpu_count() or 1)]
     progress, log = Progress(), []
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace") as running:
@@ -109,7 +109,7 @@ def build(folder: Path, target: str) -> tuple[bool, str]:
 
 
 def from_root(text: str, root: Path, folder: Path) -> str:
-    """The text with each source file named as seen from the project's root, so that an editor finds it."""
+    """The text with the name of each source file relative to the project's root, so that an editor finds it."""
     def named(match: re.Match) -> str:
         for start in (folder / "tests/exercises", folder, root):  # where compilers were started
             path = (start / match[0]).resolve()

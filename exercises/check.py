@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Says how far the exercises are: one row each, what the first failing test says, and the total.
+"""Reports the state of the exercises: one row each, the message of the first failing test, and the total.
 
-Each exercise is built on its own and its tests are run on the learner's file; where nothing has changed since, the last
-result is said again (last_result.py). Ends with 0 if all that were asked for are done, 1 if not, 2 for a name that is none."""
+Each exercise is built on its own, and its tests run on the learner's file; where nothing has changed since, the last
+result is repeated (last_result.py). Ends with 0 if all the exercises named are done, 1 if not, 2 for an unknown name."""
 
 import argparse
 import json
@@ -29,8 +29,8 @@ class State:
     text: str
     done: bool = False
     detail: str = ""
-    ran: bool = False  # the tests went to their end: on the same files they say the same again
-    recalled: bool = False  # this is the last result, and nothing that could change it has changed
+    ran: bool = False  # the tests ran to their end: on the same files they would give the same result
+    recalled: bool = False  # this is the last result, repeated: nothing that could change it has changed
 
 
 def first_error(log: str, file: str) -> tuple[str, bool]:
@@ -79,7 +79,7 @@ def test_that_ran(output: str) -> str:
 
 
 def verdict(tests: list[dict]) -> State:
-    """From GoogleTest's report on each test."""
+    """The exercise's state, from GoogleTest's report on each test."""
     failed = [test for test in tests if test.get("failures")]
     if not tests:
         return State("crashed: its tests did not run")
@@ -97,7 +97,7 @@ def verdict(tests: list[dict]) -> State:
 
 
 def check(exercise: Exercise, folder: Path, root: Path, limit: float) -> State:
-    """How far the exercise is; a piece of the engine that is done is compiled for the programs, too."""
+    """The exercise's state; a piece of the engine that is done is also compiled for the programs."""
     state = tested(exercise, folder, root, limit)
     if pieces.is_piece(exercise, root):
         if state.done:
@@ -127,7 +127,7 @@ def tested(exercise: Exercise, folder: Path, root: Path, limit: float) -> State:
 
 
 def advice(exercise: Exercise, state: State, following: Exercise | None) -> str:
-    """What to do next, for an exercise that is not begun, or done."""
+    """What to do next, for an exercise that is not started, or done."""
     if state.text == NOT_STARTED:
         return exercise.task
     if not state.done:

@@ -1,8 +1,8 @@
 """The last result of an exercise's tests, as long as nothing that could change it has changed.
 
 Kept in BUILD/check/, with a key: a digest of the learner's file, of all sources and build files of the project that its
-tests can see, of what the compiler said that it read (its dependency files), of the test program and of the installed
-packages. Files are told apart by size and times, the learner's by what is in it. If any of it is another one, or is not
+tests can see, of the files that the compiler read (by its dependency files), of the test program and of the installed
+packages. A file counts as changed by its size and times, the learner's by its content. If any of these has changed, or is not
 known, there is no last result."""
 
 import hashlib
@@ -25,7 +25,7 @@ def stamp(file: Path) -> str:
 
 
 def sources(exercise: Exercise, root: Path) -> list[str]:
-    """The learner's file as it is, and a stamp of all that its tests are built from."""
+    """The learner's file as it is, and a digest of all that its tests are built from."""
     own = root / exercise.file
     files = [root / "tests/exercises" / exercise.chapter / f"{exercise.name}_test.cpp", root / "tests/CMakeLists.txt",
              root / "tests/exercises/CMakeLists.txt", PACKAGES, *root.glob("CMake*"), *(root / "exercises").rglob("*.hpp"),

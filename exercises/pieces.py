@@ -1,5 +1,5 @@
-"""The exercises that are pieces of the engine: those that pass are compiled for the chapters' programs, which take them with
---mine (common/pieces.hpp says what is put where)."""
+"""The exercises that are pieces of the engine: those that pass are compiled for the chapters' programs, which use them with
+--mine (common/pieces.hpp describes the files)."""
 
 import re
 from pathlib import Path
@@ -18,7 +18,7 @@ def is_piece(exercise: Exercise, root: Path) -> bool:
 
 
 def scene_of(exercise: Exercise, root: Path) -> str:
-    """The scene in which the piece is to be seen."""
+    """The scene that shows the piece."""
     return re.match(r"// See: (\S+)", handed_over(exercise, root).read_text(encoding="utf-8"))[1]
 
 
@@ -38,7 +38,7 @@ def refuse(exercise: Exercise, root: Path, why: str) -> None:
 
 
 def hand_over(exercise: Exercise, folder: Path, root: Path, unchanged: bool) -> str:
-    """Compiles the learner's file for the programs. What is wrong, or nothing. `unchanged`: neither the file nor anything that
+    """Compiles the learner's file for the programs. Returns what is wrong, or "". `unchanged`: neither the file nor anything that
     it is compiled with has changed since its last check."""
     source = (root / exercise.file).resolve()
     checked = f"{source}\n{source.read_text(encoding='utf-8')}"
@@ -51,7 +51,7 @@ def hand_over(exercise: Exercise, folder: Path, root: Path, unchanged: bool) -> 
     if not built or not module.exists():
         return "it passes, but cannot be compiled for the programs: " + (log.strip().splitlines() or ["no module"])[-1]
     place(exercise, root, ".so").parent.mkdir(parents=True, exist_ok=True)
-    # A new file, not the old one written over: a program may run with that.
+    # A new file, not the old one overwritten: a running program may use that.
     temporary = place(exercise, root, ".new")
     temporary.write_bytes(module.read_bytes())
     temporary.replace(place(exercise, root, ".so"))
@@ -60,10 +60,10 @@ def hand_over(exercise: Exercise, folder: Path, root: Path, unchanged: bool) -> 
 
 
 def count(exercises: list[Exercise], root: Path) -> str:
-    """The last line: on how many of the learner's pieces the bunnies collide."""
+    """The last line of the report: on how many of the learner's pieces the bunnies collide."""
     pieces = [exercise for exercise in exercises if is_piece(exercise, root)]
     mine = [exercise for exercise in pieces if place(exercise, root, ".so").exists()]
     if not pieces:
         return ""
-    line = f"the bunnies collide on {len(mine)} of {len(pieces)} pieces of yours"
+    line = f"the bunnies collide on {len(mine)} of {len(pieces)} pieces of your own"
     return f"{line}: {BUNNIES}" if mine else f"{line}; the first is {pieces[0].dotted}"

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Shows what the learner's code of one exercise does: builds its demo, runs it, draws what it wrote, says where. A piece of
+"""Shows what the learner's code of one exercise does: builds its demo, runs it, draws its output, and prints where. A piece of
 the engine without a demo is shown in its chapter's program, run with --mine.
 
-Ends with 0 if there is a picture, 1 if not (the exercise is not started, does not compile, or its demo fails), 2 for a
-name that is none."""
+Ends with 0 if there is a picture, 1 if not (the exercise is not started, does not compile, or its demo fails), 2 for an
+unknown name."""
 
 import subprocess
 import sys
@@ -41,10 +41,10 @@ def see(exercise: Exercise, folder: Path, root: Path, limit: float) -> int:
         return 1
     out = f"out/{exercise.chapter}_{exercise.number}"
     code, said, wrong = run([folder.resolve() / "bin" / demo, out], root)
-    # The demo ends with the line that draws it, which comes now.
+    # The demo's last line is the command that draws it, which runs now.
     print("".join(f"{line}\n" for line in said.splitlines() if not line.startswith("draw it: ")), end="", flush=True)
     if code != 0:
-        print(f"the demo ended with {why_it_ended(code)}: {wrong.splitlines()[-1] if wrong else 'it says no more'}")
+        print(f"the demo ended with {why_it_ended(code)}: {wrong.splitlines()[-1] if wrong else 'it gives no reason'}")
         return 1
     code, said, wrong = run([sys.executable, f"plots/{exercise.chapter}_{exercise.name}.py", out], root)
     if code != 0:

@@ -17,7 +17,7 @@ MESH = Path("/usr/share/glmark2/models/bunny.obj")  # Debian's package glmark2-d
 WIDTH, HEIGHT, SAMPLES = 560, 290, 3  # of a panel in pixels; samples per pixel along each axis
 LIGHTS = ((np.array([-0.5, -0.5, 0.75]), 0.75), (np.array([0.8, -0.5, 0.1]), 0.22))  # to the light; strength
 AMBIENT = 0.22
-ROUNDING = 1e-6  # of a pixel's weights: a pixel on an edge belongs to both sides, and not to none
+ROUNDING = 1e-6  # of a pixel's weights: a pixel on an edge belongs to both sides, rather than to none
 TITLE = 30  # pixels above each panel
 LEVELS = 80  # of each colour: too fine to see, and a third less to store
 
@@ -33,7 +33,7 @@ def load_obj(file: Path) -> tuple[np.ndarray, np.ndarray]:
 
 
 def center_of_mass(vertices: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    """Of the solid inside: the sum over the tetrahedra that the triangles make with the origin."""
+    """The centroid of the solid inside: a sum over the tetrahedra that the triangles form with the origin."""
     a, b, c = (vertices[triangles[:, k]] for k in range(3))
     volume = np.einsum("ij,ij->i", a, np.cross(b, c))
     return (volume[:, None] * (a + b + c)).sum(axis=0) / (4 * volume.sum())
@@ -75,7 +75,7 @@ class Poses:
         self.center = center
 
     def at(self, time: float) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
-        """Of each body at a time: the position of its shape's frame, its rotation, its velocity."""
+        """For each body at a time: the position of its shape's frame, its rotation, its velocity."""
         frame = max(0, np.searchsorted(self.times, time, side="left") - 1) if time > self.times[0] else 0
         later = time - self.times[frame]
         result = []
@@ -109,7 +109,7 @@ def rasterize(corners: np.ndarray, colors: np.ndarray, width: int, height: int) 
     x, y = x - low_x[:, None], y - low_y[:, None]
     next_x, next_y, last_x, last_y = (np.roll(array, shift, axis=1) for shift in (-1, -2) for array in (x, y))
     across, along, rest = (next_y - last_y) / area, (last_x - next_x) / area, (next_x * last_y - last_x * next_y) / area
-    across, along, rest = (array.T.astype(np.float32) for array in (across, along, rest))  # fewer digits do
+    across, along, rest = (array.T.astype(np.float32) for array in (across, along, rest))  # fewer digits suffice
     pixels, depths, triangles = [], [], []
     # Visit one pixel of every triangle's bounding box at once, then the next one: few rounds, for triangles are small.
     for dy in range(high.max(initial=0)):

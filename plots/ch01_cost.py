@@ -55,7 +55,7 @@ def draw_cost(run: Path) -> plt.Figure:
 
 
 def draw_corner(axes: plt.Axes) -> None:
-    """What the two tables are about: the brick's corner, and the ball's path as seen from it."""
+    """The subject of the two tables: the brick's corner, and the ball's path as seen from it."""
     bare(axes, "The ball's path")
     body(axes, [(0, 0), (-0.75, -0.85), (0.75, -0.85)])
     note(axes, (0, -0.55), "corner of\nthe brick", DARK)

@@ -1,6 +1,6 @@
 """Chapter 1's drawings, each from the tables that `ch01_pictures` wrote.
 
-Reads the tables in RUN_DIR, and in RUN_DIR/coarse those of the flight with a tolerance that one can see; the chapter's text has
+Reads the tables in RUN_DIR, and in RUN_DIR/coarse those of the flight with a tolerance large enough to see; the chapter's text has
 the commands. Writes one picture for each name into the folder --out.
 """
 
@@ -42,7 +42,7 @@ def two_bodies(file: Path) -> tuple[np.ndarray, np.ndarray]:
 
 
 def band(axes: plt.Axes, n, low: float, high: float, half: float, middle, **more) -> None:
-    """What lies between two parallel lines: low <= n.x <= high, for some way to either side of `middle`."""
+    """The strip between two parallel lines, low <= n.x <= high, over some length to either side of `middle`."""
     n = np.asarray(n)
     along = np.array([-n[1], n[0]])
     centre = np.dot(middle, along) * along

@@ -38,7 +38,7 @@ OTHERS = {
 
 
 def bars(axes: plt.Axes, table: Table, rows: dict[str, str], title: str) -> None:
-    """For each idea the median as a bar and, as a line, up to where 95 % of the queries stay."""
+    """For each idea the median as a bar, and the 95 % quantile of the queries as a line."""
     families, ideas = table.text("motions"), table.text("idea")
     median = table["node_pairs"] + table["leaf_pairs"]
     high = table["node_pairs_p95"] + table["leaf_pairs_p95"]

@@ -1,4 +1,4 @@
-"""Chapter 2's drawings of the search: one look at a pair, who is opened, the queue of a small search, and one time for each
+"""Chapter 2's drawings of the search: one look at a pair, which pairs are opened, the queue of a small search, and one time for each
 pair against one for all. Drawn by ch02_drawings.py."""
 
 import drawing_python  # noqa: F401  first: it finds a Python that can draw

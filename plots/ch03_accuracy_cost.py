@@ -18,7 +18,7 @@ SHOWN = ["random_spd", "box_heap", "stack", "stack_1e8"]
 
 
 def curves(axes: plt.Axes, table: Table, family: str, cost: np.ndarray) -> None:
-    """Pivoting methods are one mark; of the others each limit is a mark, from left to right."""
+    """Pivoting methods are one mark; the others have a mark for each limit, from left to right."""
     names, families = np.array(table.text("method")), np.array(table.text("family"))
     for method, (label, colour, mark) in METHODS.items():
         rows = (names == method) & (families == family) & (table["rows"] == ROWS)

@@ -23,7 +23,7 @@ def ground(axes, x0: float, x1: float, top: float = 0, depth: float = 0.12) -> N
 
 
 def fraction(value: float) -> str:
-    """A multiple of 1/8 as it is said: −5/8."""
+    """A multiple of 1/8 as a fraction: −5/8."""
     eighths = round(8 * value)
     if abs(8 * value - eighths) > 1e-6:
         return f"{value:.2f}".replace("-", "−")

@@ -1,4 +1,4 @@
-"""Exercise 3.1: the plane of b for five matrices, coloured by who pushes.
+"""Exercise 3.1: the plane of b for five matrices, coloured by which contacts push.
 
 Reads RUN_DIR/cones.csv, which the target ch03_ex01_demo writes.
 """
@@ -26,7 +26,7 @@ def draw(run: Path) -> plt.Figure:
     figure, axes = plt.subplots(1, len(names), figsize=(2.4 * len(names), 3.3), sharey=True)
     for panel, name in zip(axes, names):
         none = np.array([m == name and p == "no answer" for m, p in zip(matrix, pushing)])
-        if none.any():  # hatched, and then covered where somebody pushes
+        if none.any():  # hatched, and then covered where a contact pushes
             (x0, y0), (x1, y1) = b[none].min(axis=0), b[none].max(axis=0)
             panel.add_patch(plt.Rectangle((x0, y0), x1 - x0, y1 - y0, zorder=0, **NONE))
         for kind, (colour, size) in KINDS.items():

@@ -1,4 +1,4 @@
-"""Exercise 3.2: what gradients reach for their products with A, with your momentum and without.
+"""Exercise 3.2: what gradients achieve with a number of products with A, with your momentum and without.
 
 Reads RUN_DIR/descent.csv, which the target ch03_ex02_demo writes.
 """

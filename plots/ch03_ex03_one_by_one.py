@@ -13,7 +13,7 @@ from style import BLUE, GREY, ORANGE, Table, plot_main
 
 METHODS = {"all at once": BLUE, "in turn": ORANGE, "the fastest first": ORANGE}
 RADIUS = 0.0285  # m
-SECONDS = 0.03  # an arrow is the way of so long
+SECONDS = 0.03  # an arrow is the distance covered in this time
 
 
 def draw(run: Path) -> plt.Figure:

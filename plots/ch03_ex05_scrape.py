@@ -1,4 +1,4 @@
-"""Exercise 3.5: a ball that scrapes over the floor: sticks, or slides.
+"""Exercise 3.5: a ball scrapes over the floor: it sticks, or it slides.
 
 Reads RUN_DIR/scrape.csv, which the target ch03_ex05_demo writes.
 """

@@ -20,12 +20,12 @@ FAMILIES = {
     "stack": "stack, equal masses",
     "stack_1e8": "stack, heavy on light $10^8$",
 }
-LEAST = 1e-17  # below round-off: here stands what is 0
+LEAST = 1e-17  # below round-off: where a 0 is drawn
 RESIDUAL_TICKS = [LEAST, 1e-12, 1e-8, 1e-4, 1], ["0", "$10^{-12}$", "$10^{-8}$", "$10^{-4}$", "1"]
 
 
 def break_before_zero(axis: str, axes) -> None:
-    """Two strokes on a residual's axis: between 0 and round-off it leaves out all the rest."""
+    """Two strokes on a residual's axis: the range between 0 and round-off is left out."""
     at = 5e-17
     stroke = {"marker": [(-1, -0.6), (1, 0.6)], "ms": 9, "mec": "#555555", "mew": 1, "clip_on": False, "ls": ""}
     for shift in (0.8, 1.25):

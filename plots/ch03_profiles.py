@@ -20,7 +20,7 @@ def profiles(axes: plt.Axes, table: Table, cost: np.ndarray) -> None:
     problems = list(zip(table.text("family"), table.text("rows"), table.text("seed")))
     methods = np.array(table.text("method"))
     good = table["good"] > 0
-    cost = np.maximum(cost, cost[cost > 0].min())  # 0 pivots: nothing was to be done
+    cost = np.maximum(cost, cost[cost > 0].min())  # 0 pivots: there was nothing to do
     best: dict[tuple, float] = {}
     for problem, value, solved in zip(problems, cost, good):
         if solved:

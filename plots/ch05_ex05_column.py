@@ -1,4 +1,4 @@
-"""Exercise 5.5: the gaps of a column while its gaps are put right, and the energy that it costs.
+"""Exercise 5.5: the gaps of a column while they are corrected, and the energy that it costs.
 
 Reads RUN_DIR/column.csv and RUN_DIR/energy.csv, which the target ch05_ex05_demo writes.
 """

@@ -1,4 +1,4 @@
-"""Exercise 5.6: a box that bounces, one that rests while another falls on it, one that touches, and what accounts say.
+"""Exercise 5.6: a box that bounces, one that rests while another falls on it, one that touches, and its energy account.
 
 Reads RUN_DIR/hopping.csv, which the target ch05_ex06_demo writes.
 """

@@ -1,6 +1,6 @@
 """Chapter 5's picture of its two lengths, the envelope's width and the frame's: what errors they make, and what they cost.
 
-The way down the slope is exact, and so is only in what it costs.
+The distance down the slope is exact, and so the slope appears only in the costs.
 
 Reads RUN_DIR/envelope.csv and RUN_DIR/step.csv of ch05_study --part knobs.
 """
@@ -14,7 +14,7 @@ import numpy as np
 
 from style import BLUE, GREEN, ORANGE, PURPLE, RED, Table, plot_main
 
-LEAST = 1e-7  # of errors: what is less is nothing beside the others
+LEAST = 1e-7  # of errors: smaller ones are negligible beside the others
 
 
 def errors(axes: plt.Axes, table: Table, x: str, columns: list[tuple[str, str, str, str]]) -> None:

@@ -4,7 +4,7 @@
     python3 plots/ch06_arch.py --stones 13 --inner 4.5 --outer 5.5
 
 It stands if there are forces at the joints that balance the weights, act inside the joints, and lie in their cones. By
-symmetry two numbers say all: the thrust H at the crown, and its moment about the centre. With both, the force at every joint
+symmetry two numbers suffice: the thrust H at the crown, and its moment about the centre. With both, the force at every joint
 is known, and every condition is linear in them."""
 
 import argparse
@@ -12,7 +12,7 @@ import math
 
 
 def half_arch(stones: int, inner: float, outer: float) -> list[tuple[float, float, float]]:
-    """Of each joint from the crown down: its angle from the vertical, the weight above it up to the crown, and the moment of
+    """For each joint from the crown down: its angle from the vertical, the weight above it up to the crown, and the moment of
     that weight about the centre. The stones are straight, and weigh 1."""
     half = 0.5 * math.pi / stones
     # A trapezoid with a corner at each of the radii: its centroid's distance from the centre, and that of half of it from the

@@ -1,4 +1,4 @@
-"""Exercise 6.2: where a block stops that is thrown in each direction, and by how much its way is turned.
+"""Exercise 6.2: where a block thrown in each direction stops, and by how much its path is turned.
 
 Reads RUN_DIR/stops.csv, which the target ch06_ex02_demo writes.
 """

@@ -1,4 +1,4 @@
-"""Exercise 6.5: a cube that should stand on a slope, one that slides down, one that is put right, and a rod that is thrown.
+"""Exercise 6.5: a cube that should stand on a slope, one that slides down, one whose gaps are corrected, and a rod that is thrown.
 
 Reads RUN_DIR/creeping.csv, which the target ch06_ex05_demo writes.
 """

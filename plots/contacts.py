@@ -2,7 +2,7 @@
 """Draws a run's contacts: contacts.py RUN_DIR
 
 A stepped run (chapter 4 on): contacts, impulses, velocities, gaps and time per frame. A single solve (chapter 3): its
-impulses and velocities. Queries (chapters 1 and 2): the gap and the features at each first contact. Of more than 2000
+impulses and velocities. Queries (chapters 1 and 2): the gap and the features at each first contact. For more than 2000
 contacts the picture shows where most of them are: the median, 5 to 95 %, and the largest."""
 
 import drawing_python  # noqa: F401  first: it finds a Python that can draw
@@ -18,12 +18,12 @@ from style import (BLUE, GREEN, GREY, ORANGE, PURPLE, RED, SKY, PlotError, Table
                    nothing, plot_main, plt, rests_of, table_if_there)
 
 REAL_TIME_MS = 1000 / 30  # the paper's limit: 30 frames per second
-ROUND_OFF = 1e-6  # of the largest impulse: what is smaller would stretch the axis, and says nothing
+ROUND_OFF = 1e-6  # of the largest impulse: smaller ones would stretch the axis for nothing
 
 
 def draw_counts(axes: plt.Axes, bins: Bins, steps: Table, contacts: Table, rests: np.ndarray) -> None:
     given, impacts = (bins.reduced(steps[name], np.maximum) for name in ("contacts", "impacts"))
-    resting = np.zeros(len(steps))  # those of a frame are told at its start
+    resting = np.zeros(len(steps))  # those of a frame are reported at its start
     np.add.at(resting, np.minimum(np.searchsorted(steps["t"], contacts["t"][rests], side="right"), len(steps) - 1), 1)
     resting = bins.reduced(resting, np.maximum)
     axes.stairs(given, bins.edges, fill=True, color=SKY, alpha=0.6, label="given to the solver")
@@ -77,7 +77,7 @@ def draw_velocities(axes: plt.Axes, bins: Bins, x: np.ndarray, contacts: Table) 
 
 
 def draw_levels(axes: plt.Axes, levels: dict[str, float]) -> None:
-    """Lengths that gaps are to be compared with."""
+    """Lengths to compare gaps with."""
     for (name, value), style in zip(levels.items(), ("--", "-.", ":")):
         axes.axhline(value, color=GREY, linestyle=style, linewidth=1, label=f"{name}, {value:g} m")
 

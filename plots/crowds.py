@@ -1,4 +1,4 @@
-"""More points than a picture can show: what stands for them."""
+"""Summaries of more points than a picture can show."""
 
 import drawing_python  # noqa: F401  first: it finds a Python that can draw
 
@@ -8,8 +8,8 @@ import numpy as np
 
 from style import plt
 
-MOST_POINTS = 2000  # drawn one by one; of more, bands show where most of them are
-MOST_BINS = 600  # along an axis: a picture of this size has no more pixels to tell them apart
+MOST_POINTS = 2000  # drawn one by one; for more, bands show where most of them are
+MOST_BINS = 600  # along an axis: a picture of this size has no pixels for more
 
 
 class Bins(NamedTuple):
@@ -54,7 +54,7 @@ def quantiles(bins: Bins, x: np.ndarray, values: np.ndarray, shares: tuple[float
 
 
 def draw_bands(axes: plt.Axes, bins: Bins, x: np.ndarray, values: np.ndarray, color: str, name: str, farthest: str = "largest") -> None:
-    """In each bin the median, where 90 % of the values lie, and the largest (or the smallest)."""
+    """For each bin the median, the range of 90 % of the values, and the largest (or the smallest)."""
     low, middle, high, end = quantiles(bins, x, values, (0.05, 0.5, 0.95, 1.0 if farthest == "largest" else 0.0))
     axes.stairs(high, bins.edges, baseline=low, fill=True, color=color, alpha=0.3, linewidth=0, label=f"{name}, 5–95 %")
     axes.stairs(middle, bins.edges, baseline=None, color=color, linewidth=1.2, label="median")
@@ -62,7 +62,7 @@ def draw_bands(axes: plt.Axes, bins: Bins, x: np.ndarray, values: np.ndarray, co
 
 
 def thinned(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """A curve with few enough points that looks the same: of every so many points the lowest and the highest stay."""
+    """A curve that looks the same with fewer points: of every group of points the lowest and the highest stay."""
     stride = int(np.ceil(len(x) / MOST_POINTS))
     if stride <= 1:
         return x, y

@@ -5,11 +5,11 @@ import os
 import sys
 
 DISTRIBUTION = "/usr/bin/python3"
-ASKED = "FIRST_CONTACT_PYTHON_ASKED"  # in the environment of a Python that took over: who could not draw, and why
+ASKED = "FIRST_CONTACT_PYTHON_ASKED"  # in the environment of a Python that took over: which ones could not draw, and why
 
 
 def lacking():
-    """What this Python lacks; empty if it can draw. Written so that any Python 3 can ask."""
+    """What this Python lacks; empty if it can draw. Written so that any Python 3 can run it."""
     if sys.version_info < (3, 10):
         return "older than 3.10"
     try:

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Draws a run's energy over time, and how well it keeps momentum: energy.py RUN_DIR
 
-Potential energy counts from the lowest of the run. What is small beside the rest has a panel of its own. Where gravity or
+Potential energy counts from the run's lowest. Energies that are small beside the others have a panel of their own. Where gravity or
 fixed bodies change the momentum, it is not drawn."""
 
 import drawing_python  # noqa: F401  first: it finds a Python that can draw
@@ -16,8 +16,8 @@ from style import (BLUE, GREEN, GREY, ORANGE, PURPLE, RED, SKY, PlotError, Table
 
 ZERO_SHOWN_AT = 1e-18  # on the logarithmic axis; below every rounding error
 ROUNDING = np.finfo(float).eps
-SMALL = 0.1  # of the range of all energies: what stays within has a panel of its own
-FLAT = 1e-9  # of the energies: a range below is rounding, and is not blown up to fill the panel
+SMALL = 0.1  # of the range of all energies: those that stay within have a panel of their own
+FLAT = 1e-9  # of the energies: a range below this is rounding, and is not magnified to fill the panel
 MOST_LINES = 60  # one for each instant with an impact; of more, bars show how many
 # What a step adds to the total, by column (chapter 5 on): drawn as the sum so far.
 ADDED = {"correction_energy": (PURPLE, "added by corrections"), "friction_work": (GREEN, "friction's work"),
@@ -47,7 +47,7 @@ def curves_of(steps: Table) -> tuple[list[tuple[str, np.ndarray, dict]], float]:
 
 
 def draw_curves(axes: plt.Axes, t: np.ndarray, curves: list, rounding: float) -> None:
-    """`rounding`: a range of energies that is none."""
+    """`rounding`: a range of energies that counts as zero."""
     for name, values, look in curves:
         axes.plot(*thinned(t, values), label=name, **look)
     low, high = (how([how(values) for _, values, _ in curves] + [0]) for how in (min, max))

@@ -1,4 +1,4 @@
-"""What drawings share that show things, not measurements: bodies, arrows, lengths, on axes without a frame."""
+"""Shared parts of drawings that show objects, not measurements: bodies, arrows, lengths, on axes without a frame."""
 
 import drawing_python  # noqa: F401  first: it finds a Python that can draw
 

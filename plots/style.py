@@ -13,7 +13,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.ticker import FuncFormatter
 
-# Okabe and Ito's palette: told apart with any kind of colour vision.
+# Okabe and Ito's palette: distinct for any kind of colour vision.
 BLUE, ORANGE, GREEN, RED, SKY, PURPLE, GREY = "#0072B2 #E69F00 #009E73 #D55E00 #56B4E9 #CC79A7 #767676".split()
 
 plt.rcParams.update({
@@ -48,7 +48,7 @@ plt.rcParams.update({
 
 
 class PlotError(Exception):
-    """What stands in the way of a plot; its one line says what is wrong."""
+    """A plot cannot be drawn; the message is one line."""
 
 
 class Table:
@@ -97,7 +97,7 @@ def table_if_there(file: Path) -> Table | None:
 
 
 def read_summary(run: Path) -> dict:
-    """The run's summary.json; nothing if it has none."""
+    """The run's summary.json; empty if it has none."""
     file = run / "summary.json"
     if not file.exists():
         return {}
@@ -108,13 +108,13 @@ def read_summary(run: Path) -> dict:
 
 
 def entry_of(run: Path, name: str) -> float | None:
-    """A number of the run's summary; None if it says none."""
+    """A number of the run's summary; None if it has none."""
     value = read_summary(run).get("entries", {}).get(name, {}).get("value")
     return float(value) if isinstance(value, (int, float)) else None
 
 
 def rests_of(contacts: Table) -> np.ndarray:
-    """Of each contact whether it lasts (chapter 5 on); tables without the column `kind` tell of impacts alone."""
+    """For each contact whether it lasts (chapter 5 on); tables without the column `kind` have impacts alone."""
     kinds = contacts.text("kind") if "kind" in contacts.names else []
     return np.array([kind == "rest" for kind in kinds] if kinds else [False] * len(contacts), bool)
 
@@ -148,7 +148,7 @@ def power_of_ten(value: float, _: int = 0) -> str:
 
 
 def log_limits(axes: plt.Axes, *series: np.ndarray) -> None:
-    """A logarithmic y axis around what of the series can stand on it."""
+    """A logarithmic y axis around those values of the series that are positive."""
     values = np.concatenate([s[np.isfinite(s) & (s > 0)] for s in series])
     axes.set_yscale("log")
     axes.yaxis.set_major_formatter(FuncFormatter(power_of_ten))

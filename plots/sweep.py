@@ -2,7 +2,7 @@
 """Draws any column of a sweep against the key that was swept: sweep.py DIR… [--x KEY] [--y COLUMN]…
 
 DIR is a folder with a sweep.csv. Several are parts of one sweep (--part 1/4, 2/4, …): their rows are put together and
-sorted. Without --y it draws those of these that change: gaps, energies, impacts, residual, lost time, time of a frame.
+sorted. Without --y it draws whichever of these change: gaps, energies, impacts, residual, lost time, time of a frame.
 The picture is sweep.svg and sweep.png in the first DIR.
 
     build/bin/ch05_resting_contact chapters/ch05_resting_contact/scenes/stack.yaml --sweep envelope=1e-4,3e-4,1e-3 --out out/h
@@ -58,7 +58,7 @@ class Sweep:
         return table
 
     def _together(self, rows: list[dict[str, str]]) -> list[dict[str, str]]:
-        """Sorted by the swept value. A value that comes twice must have come to the same, but for measured times."""
+        """Sorted by the swept value. Rows of the same value must be equal, except for measured times."""
         found: dict[object, dict[str, str]] = {}
         for row in rows:
             value = number(row[self.key])
@@ -93,7 +93,7 @@ def spans_decades(values: np.ndarray) -> bool:
 
 
 def place_x(axes: plt.Axes, sweep: Sweep, key: str) -> np.ndarray:
-    """Where the runs stand on the x axis: at the key's values, or side by side if these are no numbers."""
+    """The runs' places on the x axis: the key's values, or side by side if these are not numbers."""
     cells = sweep.column(key)
     x = numbers(cells)
     axes.set_xlabel(sweep.headers[key])
@@ -117,7 +117,7 @@ def draw_panel(axes: plt.Axes, sweep: Sweep, key: str, name: str) -> None:
     axes.set_title(header)
     order = np.argsort(x, kind="stable")
     axes.plot(x[order], y[order], "o-", color=BLUE, markersize=4)
-    if spans_decades(y):  # zeros and what is below it stand under the axis
+    if spans_decades(y):  # zeros and smaller values are drawn under the axis
         axes.set_yscale("log")
         zero = np.isfinite(y) & (y <= 0)
         if zero.any():
@@ -132,7 +132,7 @@ def draw_panel(axes: plt.Axes, sweep: Sweep, key: str, name: str) -> None:
 
 
 def usual(sweep: Sweep, key: str) -> list[str]:
-    """What there is to see: of the usual columns those that are numbers, and not the same everywhere."""
+    """What to draw: of the usual columns, those that are numbers and vary."""
     names = [name for name in USUAL if name in sweep.headers]
     changing = [name for name in names if len(set(sweep.column(name))) > 1 and np.isfinite(numbers(sweep.column(name))).any()]
     if not changing:

@@ -6,7 +6,7 @@ NUMBER = re.compile(r"(?<![\w#.])[-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?", re.I)
 TIMES = re.compile(r"(<!-- times: .*? -->).*?(<!-- /times -->)", re.S)  # never compared
 # What matplotlib names by a digest of its numbers: a last digit changes the whole name.
 DIGEST = re.compile(r'(?<=[#"])(p|m|h|C[0-9a-f]+_[0-9a-f]+_)[0-9a-f]{10}\b')
-RELATIVE = 1e-9  # compilers round differently: numbers with many digits may part ways there
+RELATIVE = 1e-9  # compilers round differently: numbers with many digits may differ there
 PIXELS = 0.02  # the same in a picture
 
 
@@ -21,13 +21,13 @@ def allowed(number: str, picture: bool) -> float:
 
 
 def named_in_order(picture: str) -> str:
-    """The picture with its digests renamed in the order in which they first appear: what refers to what stays to be compared."""
+    """The picture with its digests renamed in the order of their first appearance, so that references can still be compared."""
     names: dict[str, str] = {}
     return DIGEST.sub(lambda found: names.setdefault(found[0], f"name-{len(names)}"), picture)
 
 
 def difference(committed: str, fresh: str, picture: bool = False) -> str:
-    """`line: what differs`, the first only; empty if nothing does. Hair-thin differences of numbers are none."""
+    """`line: what differs`, the first difference only; empty if there is none. Differences of numbers within allowed() do not count."""
     committed, fresh = (TIMES.sub(r"\1\2", text) for text in (committed, fresh))
     if picture:
         committed, fresh = named_in_order(committed), named_in_order(fresh)

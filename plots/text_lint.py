@@ -16,7 +16,7 @@ def figures(root: Path) -> list[Path]:
 
 
 def heading_id(heading: str) -> str:
-    """As GitHub makes it."""
+    """The anchor that GitHub makes of a heading."""
     plain = re.sub(r"[`*]|\[([^\]]*)\]\([^)]*\)", r"\1", heading).strip().lower()
     return re.sub(r"[^\w\- ]", "", plain).replace(" ", "-")
 
@@ -49,7 +49,7 @@ def link_faults(page: Path, root: Path, shown: set[Path]) -> list[str]:
 
 
 def math_faults(page: Path, root: Path) -> list[str]:
-    """GitHub reads Markdown before mathematics: what it would eat there must stand in a ```math block or in $`...`$."""
+    """GitHub reads Markdown before mathematics: what Markdown would consume must be in a ```math block or in $`...`$."""
     whole = page.read_text(encoding="utf-8")
     text = CODE.sub(blanked, re.sub(r"\$`[^`\n]*`\$", blanked, whole))
     faults = []

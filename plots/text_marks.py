@@ -19,11 +19,11 @@ FENCE = re.compile(r"```(\w*)\n(.*?)^```$", re.M | re.S)
 
 
 class MarkError(Exception):
-    """What is wrong with a mark: `line: what`."""
+    """A fault in a mark: `line: what`."""
 
 
 def shell(command: str, root: Path) -> str:
-    """What a command of the texts prints; `python3` is the Python that runs this."""
+    """The output of a command of the texts; `python3` is the Python that runs this."""
     with tempfile.TemporaryDirectory() as folder:
         if "PYTHON" in os.environ:
             (Path(folder) / "python3").symlink_to(os.environ["PYTHON"])

@@ -1,17 +1,17 @@
-"""What a chapter's text must have so that it can be read in an evening: a core path of at most so many words, a table of all
-symbols of its formulas, and the words that the glossary asks for."""
+"""What a chapter's text must have to be readable in an evening: a core path of at most MOST_WORDS words, a table of all
+symbols in its formulas, and the glossary's words."""
 
 import re
 from pathlib import Path
 
-MOST_WORDS = 2500  # of a chapter's README.md; second readings stand in MORE.md
+MOST_WORDS = 2500  # of a chapter's README.md; second readings are in MORE.md
 COMMENT = re.compile(r"<!--.*?-->", re.S)
 FENCED = re.compile(r"^```.*?^```$|^(?: {4}|\t)[^\n]*$", re.M | re.S)
 FOLDED = re.compile(r"<details>.*?</details>", re.S)
 INLINE = re.compile(r"(?<![\\$\w])\$`([^`\n]+)`\$|(?<![\\$`\w])\$(?!\$|`)([^$\n]+)\$(?![\w$])")
 BLOCK = re.compile(r"^```math\n(.*?)^```$", re.M | re.S)
 ROW = re.compile(r"^\|([^\n]*)\|\s*$", re.M)
-# LaTeX that is no symbol: operators, relations, functions, fonts, spaces, brackets.
+# LaTeX commands that are not symbols: operators, relations, functions, fonts, spaces, brackets.
 NO_SYMBOLS = set("""cdot times le ge leq geq ne neq lt gt approx equiv sim in notin subset cup cap to mapsto rightarrow leftarrow Rightarrow Leftrightarrow
 iff implies quad qquad frac tfrac dfrac sqrt sum prod int min max sup inf arg sin cos tan arctan arcsin arccos sinh cosh tanh log ln exp det dim rank tr
 left right big Big bigl bigr Bigl Bigr lvert rvert lVert rVert mid vert Vert langle rangle lfloor rfloor lceil rceil begin end pmatrix bmatrix matrix cases
@@ -19,7 +19,7 @@ array aligned ldots cdots vdots ddots dots hat bar dot ddot tilde vec overline u
 bot perp parallel pm mp infty partial nabla circ ast star prime forall exists land lor neg colon displaystyle textstyle hline limits nolimits bmod ll gg
 propto setminus emptyset widehat widetilde mathop operatorname mathrm text mathit tag not oplus otimes wedge vee cong succeq preceq succ prec sphericalangle
 angle deg stackrel overset underset phantom hspace vspace smallmatrix substack label Longrightarrow longrightarrow ni hookrightarrow""".split())
-INDICES = {"i", "j", "k", "O"}  # counters, and the order of a cost: nobody asks what they are
+INDICES = {"i", "j", "k", "O"}  # counters, and the order of a cost: they need no explanation
 WORDS_INSIDE = re.compile(r"\\(?:text|textrm|textit|mathrm|operatorname|tag|begin|end|label|mathop)\*?\s*\{[^{}]*\}")
 
 
@@ -28,7 +28,7 @@ def blank(match: re.Match) -> str:
 
 
 def core_words(text: str) -> int:
-    """Words of the prose that a reader goes through: no code, formulas, tables, pictures, comments, folded blocks."""
+    """Number of words of the prose alone: no code, formulas, tables, pictures, comments, folded blocks."""
     for pattern in (FOLDED, COMMENT, FENCED, INLINE):
         text = pattern.sub(" ", text)
     text = re.sub(r"^\|[^\n]*$", " ", text, flags=re.M)
@@ -61,7 +61,7 @@ def section(text: str, heading: str) -> str:
 
 
 def defined(readme: str) -> set[str]:
-    """What the first column of a chapter's table of symbols has."""
+    """The symbols in the first column of a chapter's table of symbols."""
     found: set[str] = set()
     for row in ROW.findall(section(readme, "Symbols")):
         cell = re.split(r"(?<!\\)\|", row)[0]
@@ -90,7 +90,7 @@ def chapter_faults(folder: Path, root: Path) -> list[str]:
 
 
 def old_words(glossary: str) -> dict[str, str]:
-    """Of the glossary's table "Not these": what is not said, and what instead."""
+    """From the glossary's table "Not these": each word that is not used, and the word to use instead."""
     rows = [re.split(r"(?<!\\)\|", row) for row in ROW.findall(section(glossary, "Not these"))]
     return {row[0].strip(): row[1].strip() for row in rows[2:] if len(row) > 1}
 

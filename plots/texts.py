@@ -50,7 +50,7 @@ def make(root: Path, quiet: bool) -> list[str]:
 
 
 def copy_of(root: Path, bin_dir: Path, into: Path) -> Path:
-    """The tree without what is built or written, and with the executables where the texts' commands expect them."""
+    """The tree without build products and output, and with the executables where the texts' commands expect them."""
     shutil.copytree(root, into, ignore=shutil.ignore_patterns("build", "out", ".git", "__pycache__"))
     (into / "build").mkdir()
     (into / "build/bin").symlink_to(bin_dir.resolve())
@@ -58,7 +58,7 @@ def copy_of(root: Path, bin_dir: Path, into: Path) -> Path:
 
 
 def compare(fresh: Path, root: Path) -> list[str]:
-    """What the copy has made otherwise than it stands in the tree."""
+    """The differences between the copy's fresh texts and pictures and the tree's."""
     faults = []
     for page in texts(root):
         name = page.relative_to(root)

@@ -31,8 +31,8 @@ FeaturePair witness(const GjkResult& g, const Vec3& origin) {
   return pair;
 }
 
-// How exact a distance has to be while the bodies are far apart, relative to it: a plane that is nearly the
-// best one allows nearly the best step, and costs less.
+// The relative accuracy of a distance while the bodies are far apart: a plane that is nearly the best allows
+// nearly the best step, and costs less.
 constexpr double kFar = 0.02;
 
 }  // namespace
@@ -56,12 +56,12 @@ void advance(const Convex& shape_a, const Motion& motion_a, const Convex& shape_
     GjkResult g = distance(shape_a, shape_b, pose, accuracy, options.warm_start ? &cache : nullptr);
     ++result.distance_calls;
     result.gjk_iterations += g.iterations;
-    // So close, GJK's planes may be poor. Along that of the last advance most of the target must be left.
+    // This close, GJK's plane may be poor. Along the last advance's plane most of the target must be left.
     if (t > 0 && g.lower < target) {
       const double left = support_gap(shape_a, shape_b, pose, last_normal);
       if (left > g.lower) g.lower = left, g.normal = last_normal;
     }
-    // No plane yet that tells touching from overlapping: GJK found none, or stopped at a poor one.
+    // No plane tells touching from overlapping yet: GJK found none, or stopped at a poor one.
     const bool doubtful = g.status == GjkResult::Status::overlapping ||
                           (g.upper <= result.tolerance && g.lower < -result.tolerance);
     if (t == 0 && doubtful) {

@@ -8,11 +8,11 @@
 namespace fc::ca {
 namespace {
 
-// From how many points on a table is worth its memory: some 5 numbers for each point.
+// The number of points from which a table is worth its memory, about 5 numbers for each point.
 constexpr std::size_t kTableFrom = 12;
 
-// A square of directions: those that point from the cube's middle to a square on one of its sides. Their
-// component along the side's axis is 1 or -1, those along u and v are within `half` of the middle's.
+// A square of directions: those from the cube's middle to a square on one of its sides. Their component along
+// the side's axis is 1 or -1, those along u and v are within `half` of the middle's.
 struct Square {
   Vec3 middle;
   int u, v;
@@ -26,7 +26,7 @@ struct Square {
   }
 };
 
-// Of the listed points those that may be the farthest along some direction of the square.
+// The listed points that may be the farthest along some direction of the square.
 std::vector<int> possible(std::span<const Vec3> points, const std::vector<int>& listed, const Square& square,
                           double rounding) {
   std::array<int, 5> rivals;  // the farthest along the middle and the corners
@@ -61,7 +61,7 @@ SupportTable::SupportTable(std::span<const Vec3> points) {
   std::vector<std::vector<int>> lists(static_cast<std::size_t>(6 * cells_ * cells_));
   for (int side = 0; side < 6; ++side) {
     const int axis = side / 2, u = axis == 0 ? 1 : 0, v = axis == 2 ? 1 : 2;
-    // From the whole side down, each square from the points of the one it is a quarter of.
+    // From the whole side down: each square takes its points from the square that it is a quarter of.
     std::vector<std::vector<int>> coarse{all};
     for (int cells = 1; cells <= cells_; cells *= 2) {
       std::vector<std::vector<int>> fine;

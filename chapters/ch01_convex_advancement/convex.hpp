@@ -12,22 +12,22 @@ namespace fc::ca {
 
 class SupportTable;
 
-// A convex core: the convex hull of points (others inside do no harm), each of which may carry a disk about
-// itself, in the plane across the axis; and the radius of the ball that rounds it all. A cylinder is two
-// points with equal disks, a cone a point with a disk and its apex with none. Coordinates are in the body's
-// axes, about its centre of mass. The rounding radius never enters GJK: it is taken off the distance
-// afterwards. A view: it owns nothing (ConvexCore does).
+// A convex core, and the radius of the ball that rounds it. The core is the convex hull of points (points
+// inside do no harm), each of which may carry a disk about itself, in the plane across the axis. A cylinder
+// is two points with equal disks, a cone a point with a disk and its apex with none. Coordinates are in the
+// body's axes, about its centre of mass. The rounding radius never enters GJK: it is subtracted from the
+// distance afterwards. A view: it owns nothing (ConvexCore does).
 struct Convex {
-  std::span<const Vec3> points;         // m, at least one
-  double radius = 0;                    // m
-  double reach = 0;                     // m, the largest distance of the core from its centre of mass
-  Vec3 center = Vec3::Zero();           // m, somewhere in the middle: where GJK first looks from
-  std::span<const double> disks{};      // m, the radius of each point's disk; empty: no disks
+  std::span<const Vec3> points;     // m, at least one
+  double radius = 0;                // m
+  double reach = 0;                 // m, the largest distance of the core from its centre of mass
+  Vec3 center = Vec3::Zero();       // m, somewhere in the middle: GJK's first direction joins the two centres
+  std::span<const double> disks{};  // m, the radius of each point's disk; empty: no disks
   const SupportTable* table = nullptr;  // of the same points; none: every point is looked at
   Vec3 axis = Vec3::UnitZ();            // unit: the disks lie across it
 };
 
-// A point of a core, and the number of the point that it is, or whose disk it is on.
+// A point of a core, and the number of that point, or of the point whose disk it is on.
 struct SupportPoint {
   Vec3 point;  // m
   int index;
@@ -53,13 +53,13 @@ inline int support(std::span<const Vec3> points, const Vec3& direction) {
 
 // Answers support queries of many points by looking at a few. The directions are sorted into the cells of a
 // cube's surface, each side a grid; a cell lists every point that is the farthest along any of its
-// directions. So the answer is the same as that of looking at all points, whatever the points are: unlike
-// climbing along a hull's edges this has no local maxima that rounding could make.
+// directions. So the answer is the same as from looking at all points, whatever the points are: unlike
+// climbing along a hull's edges, this has no local maxima that rounding could make.
 class SupportTable {
  public:
   explicit SupportTable(std::span<const Vec3> points);
 
-  // How many points a query looks at, in the mean over the cells.
+  // How many points a query looks at: the mean over the cells.
   double mean_listed() const {
     return static_cast<double>(listed_.size()) / static_cast<double>(start_.size() - 1);
   }
@@ -110,7 +110,7 @@ double reach_of(std::span<const Vec3> points, std::span<const double> disks, con
 // axis (body axes): no larger than the reach.
 double reach_across(const Convex& core, const Vec3& axis);
 
-// Owns what a Convex looks at.
+// Owns what a Convex refers to.
 class ConvexCore {
  public:
   // points: n, m, about the centre of mass; disks: n radii >= 0 in m, or none.

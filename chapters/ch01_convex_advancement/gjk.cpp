@@ -19,7 +19,7 @@ struct Search {
   std::array<SupportPoint, 4> from_a, from_b;
   int count = 0;
 
-  // Puts the point of B - A that lies farthest against n behind the simplex, without counting it.
+  // Writes the point of B - A that lies farthest against n after the simplex, without counting it.
   void support_against(const Vec3& n) {
     from_a[count] = support(a, n);
     from_b[count] = support(b, -(b_in_a.rotation.transpose() * n));
@@ -91,12 +91,12 @@ GjkResult distance(const Convex& a, const Convex& b, const PairPose& pose, const
     const double size = s.direction.norm();
     const Vec3 direction = size > 0 ? Vec3(s.direction / size) : s.direction;
     const double length = direction.dot(s.point);
-    // The cores overlap, or are closer than the rounding of their coordinates: no direction to speak of.
+    // The cores overlap, or are closer than the rounding of their coordinates: there is no certain direction.
     if (s.count == 4 || !(length > rounding)) {
       result.status = GjkResult::Status::overlapping;
       break;
     }
-    const bool stalled = length >= best_length;  // rounding has the last word: the former simplex was as good
+    const bool stalled = length >= best_length;  // down to rounding: the simplex before was as good
     search.keep(s);
     if (!stalled) {
       best_length = length;

@@ -9,8 +9,8 @@
 
 namespace fc::ca {
 
-// The pairs of support points at which GJK stopped, each in its own body's axes. Handed back for a nearby
-// pose, GJK starts there.
+// The pairs of support points at which GJK stopped, each in its own body's axes. GJK can start from them at a
+// nearby pose.
 struct SimplexCache {
   std::array<SupportPoint, 4> a, b;
   int count = 0;
@@ -26,7 +26,7 @@ struct GjkResult {
   enum class Status {
     separated,    // lower > 0
     overlapping,  // the cores share a point, or come closer than rounding can tell; no plane was found
-    limit         // max_iterations; the bounds hold all the same
+    limit         // max_iterations was reached; the bounds hold all the same
   };
   Status status = Status::limit;
   double upper = 0;  // m, distance of the witness points; 0 if overlapping
@@ -42,29 +42,29 @@ inline std::ostream& operator<<(std::ostream& out, GjkResult::Status status) {
   return out << kNames[static_cast<int>(status)];
 }
 
-// The stated rounding term in m: how far a support gap that was computed in double precision can lie above
-// the true one. A support value is n.(R b + p - a): a product of rotations, a rotated vector, two sums and a
-// dot product, each of relative error of a few eps = 2.2e-16; together at most 32 eps times the size of what
-// is summed. The pose itself is known to a few eps times the way and the angle that led to it: a body that
-// came from afar, or has spun for long, is where it is with that error.
+// The rounding term in m: how far a support gap computed in double precision can lie above the true one. A
+// support value is n.(R b + p - a): a product of rotations, a rotated vector, two sums and a dot product,
+// each of relative error of a few eps = 2.2e-16; together at most 32 eps times the size of what is summed.
+// The pose itself is known to a few eps times the distance and the angle that led to it: a body that came
+// from afar, or has spun for long, has that error in its place.
 double rounding_term(const Convex& a, const Convex& b, const PairPose& pose);
 
 // Distance of A and B at the given pose. For every unit n the support gap  min n.b - max n.a  is a lower
-// bound of the distance, converged or not; `lower` is the largest that the iterations saw. Works in any
-// simplex state, flat shapes and single points included. `cache` (optional) is read as the first simplex.
-// Gilbert, Johnson, Keerthi (1988); van den Bergen (1999) for the bound.
+// bound of the distance, converged or not; `lower` is the largest that the iterations saw. Works for every
+// simplex, flat shapes and single points included. `cache` (optional) is read as the first simplex. Gilbert,
+// Johnson, Keerthi (1988); van den Bergen (1999) for the bound.
 GjkResult distance(const Convex& a, const Convex& b, const PairPose& pose, const GjkOptions& options,
                    const SimplexCache* cache = nullptr);
 
-// The certified gap along a given unit normal (world, from A to B) in m: negative where the shapes overlap
+// The certified gap along a given unit normal (world, from A to B), in m; negative where the shapes overlap
 // along it.
 double support_gap(const Convex& a, const Convex& b, const PairPose& pose, const Vec3& normal);
 
-// For cores that touch or overlap: the best plane that could be found by pushing B aside by `push` (m, small
-// against the shapes, large against the overlap that matters) in eight directions, one of them `hint` (world;
-// the best normal so far), and asking GJK for the plane there. `lower` is then the certified gap of the true
-// pose along it: a lower bound of the signed distance, negative where they overlap. The witness points are
-// where the pushed shapes are nearest, each on its shape at the true pose.
+// For cores that touch or overlap: the best plane out of eight. B is pushed aside by `push` (m, small against
+// the shapes, large against the overlap that matters) in eight directions, one of them `hint` (world; the
+// best normal so far), and GJK finds the plane there. `lower` is the certified gap along it at the true pose:
+// a lower bound of the signed distance, negative where the shapes overlap. The witness points are where the
+// pushed shapes are nearest, each on its shape at the true pose.
 constexpr int kTouchingPlaneCalls = 8;
 GjkResult touching_plane(const Convex& a, const Convex& b, const PairPose& pose, double push,
                          const Vec3& hint);

@@ -37,7 +37,7 @@ struct Differences {
   }
 };
 
-// For how long the gap along n certainly stays at or above `target`, from t on; infinity: for ever.
+// How long from t on the gap along n certainly stays at or above `target`, s; infinity: for ever.
 double safe_time(const Differences& d, const std::array<Vec3, 4>& now, const Vec3& n, double target) {
   double time = kInfinity;
   for (int i = 0; i < d.count; ++i) {

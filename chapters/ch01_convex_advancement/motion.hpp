@@ -12,30 +12,30 @@ namespace fc::ca {
 // The rotation by the angle (rad) about a unit axis (Rodrigues' formula).
 Mat3 rotation_about(const Vec3& axis, double angle);
 
-// What is left of a rate k (1/s) of decay: the integral of e^(-k s) over s in [0, t], in s; and the integral
-// of that, in s^2.
+// For a decay at the rate k (1/s): the integral of e^(-k s) over s in [0, t], in s; and the integral of that,
+// in s^2.
 inline double decayed_time(double k, double t) {
   return k == 0 ? t : -std::expm1(-k * t) / k;
 }
 double decayed_square(double k, double t);
 
-// How a body turns whose spin is not constant, for all times t (s) before and after 0. Chapter 4 has such bodies; this chapter
-// asks no more of them than this.
+// How a body with a varying spin turns, for all times t (s) before and after 0. Chapter 4 has such bodies; this chapter needs
+// no more of them than this.
 class VaryingSpin {
  public:
   virtual ~VaryingSpin() = default;
   virtual Mat3 rotation_at(double t) const = 0;  // body axes to world axes
   virtual Vec3 spin_at(double t) const = 0;      // rad/s, world axes
-  // Bounds for all time: |w| and, for a unit n that stands still in the world, |n x w|, in rad/s; |dw/dt| in rad/s^2; and how
-  // far w strays from an axis that stands still, in rad/s.
+  // Bounds for all time: |w| and, for a unit n fixed in the world, |n x w|, in rad/s; |dw/dt| in rad/s^2; and how far w
+  // strays from a fixed axis, in rad/s.
   virtual double spin_bound() const = 0;
   virtual double turning_bound(const Vec3& n) const = 0;
   virtual double spin_change_bound() const = 0;
   virtual double across_bound() const = 0;
 };
 
-// A body that flies: its centre of mass with constant acceleration, its axes with constant spin or freely;
-// both may decay by drag.
+// The motion of a free body: constant acceleration of its centre of mass, constant spin or a free rotation of
+// its axes; drag may slow both.
 //   x(t) = position + velocity t + acceleration t^2/2
 //   R(t) = rotation(spin, t) R(0), or free->rotation_at(t)
 //
@@ -67,9 +67,8 @@ struct Motion {
   double free_time(double t) const { return free_start + free_rate * decayed_time(spin_drag, t); }
   Pose pose_at(double t) const { return {rotation_at(t), position_at(t)}; }
 
-  // What holds at any time t >= 0: the largest |w| and, for a fixed unit n, |n x w| in rad/s, the largest
-  // |dw/dt| in rad/s^2, and how far the spin's direction wanders: |n x w(t2)| <= |n x w(t1)| + wander, t1 <
-  // t2.
+  // Bounds for all t >= 0: the largest |w| and, for a fixed unit n, |n x w| in rad/s, the largest |dw/dt| in
+  // rad/s^2, and how far the spin's direction wanders: |n x w(t2)| <= |n x w(t1)| + wander, t1 < t2.
   double spin_bound() const { return free ? free_rate * free->spin_bound() : spin_rate; }
   double turning_bound(const Vec3& n) const;
   double spin_change_bound() const {
@@ -78,7 +77,7 @@ struct Motion {
   }
   double wander() const { return free ? 2 * free_rate * free->across_bound() : 0; }
 
-  // Constant acceleration and constant spin: what certificates are replayed for.
+  // Constant acceleration and constant spin: only such motions can be replayed from a certificate.
   bool steady() const { return !free && drag == 0 && spin_drag == 0; }
 
   // How far the rotation at t can be off, in units of 8 eps rad.
@@ -101,11 +100,11 @@ struct PairPose {
   Mat3 rotation_b;
   Vec3 offset_world;          // B's centre of mass less A's, world
   Pose b_in_a;                // x_A = b_in_a * x_B
-  double travelled;           // m, the size of what offset_world is the sum of, and
+  double travelled;           // m, the size of the terms that offset_world sums up
   double turned_a, turned_b;  // rad, about the angles since t = 0: a pose is known to 8 eps times these
 
   PairPose(const Motion& a, const Motion& b, double t);
-  // Of two bodies that stand as they are.
+  // Two bodies at rest at these poses.
   PairPose(const Pose& a, const Pose& b);
 };
 

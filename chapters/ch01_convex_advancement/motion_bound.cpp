@@ -13,7 +13,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kRounding =
     16 * std::numeric_limits<double>::epsilon();  // of a sum of speeds, relative to their sizes
-constexpr int kMostTurns = 8;  // supports in turned directions for one step; one or two do as a rule
+constexpr int kMostTurns = 8;  // supports in turned directions for one step; usually one or two suffice
 
 double reach_for(MotionBound bound, const Convex& shape, const Motion& motion) {
   if (bound < MotionBound::projected || motion.spin_rate == 0 || motion.free) return shape.reach;
@@ -21,8 +21,8 @@ double reach_for(MotionBound bound, const Convex& shape, const Motion& motion) {
       shape, motion.rotation.transpose() * motion.spin_axis);  // turns with the body: the same at any time
 }
 
-// How well the velocities that belong to a spin are known, in rad/s: kRounding times this. A pose that is off
-// by some angle turns them by it; a spin that changes is known no better than the pose.
+// kRounding times this is the error of a spin, in rad/s, for the velocities that follow from it. An angle
+// error of the pose turns them by that angle; a spin that changes is known no better than the pose.
 double spin_noise(const Motion& motion, double turned, double rate) {
   return motion.free ? turned * motion.spin_bound() : (1 + 0.5 * turned) * rate;
 }

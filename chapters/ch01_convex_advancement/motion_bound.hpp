@@ -11,15 +11,13 @@ namespace fc::ca {
 // In this order each is at least as good as the one before. See the chapter's text for the proofs.
 enum class MotionBound { naive, directional, projected, second_order };
 
-// A step may end with so much less than the target, as a part of it: to end exactly there would take more
-// searching.
+// A step may end below the target by this share of it: to end exactly there would take more searching.
 constexpr double kStepSlack = 0.25;
 
 // Throws std::invalid_argument for another name.
 MotionBound motion_bound_named(const std::string& name);
 
-// Two bodies on their way, from the pair's point of view. What does not change during a query is computed
-// once.
+// Two moving bodies, seen as a pair. What does not change during a query is computed once.
 class MovingPair {
  public:
   MovingPair(MotionBound bound, const Convex& a, const Motion& motion_a, const Convex& b,
@@ -32,8 +30,8 @@ class MovingPair {
   //   directional   n.(v_A - v_B) + |n x w_A| R_A + |n x w_B| R_B       since n.(w x r) = (n x w).r
   //   projected     the same with the reach about the axis of the spin: only the part of r across it counts
   //
-  // For a body that turns freely |w| and |n x w| stand for their largest values, and R for the reach about
-  // the centre of mass.
+  // For a body that turns freely, |w| and |n x w| mean their largest values, and R the reach about the centre
+  // of mass.
   //
   // A result <= 0 proves that the pair does not close along n until `end`. An acceleration changes
   // n.(v_A - v_B) linearly, so its larger end counts; equal accelerations cancel. A rounding radius moves
@@ -41,25 +39,25 @@ class MovingPair {
   // Collision Detection for Non-Convex Polyhedra" (2006), section 4.
   double closing_speed_bound(const Vec3& n, double t, double end) const;
 
-  // For how many seconds h from t on the gap along n certainly stays on or above the straight line from `gap`
-  // now (m, certified, > target; the pose is given) to (1 - kStepSlack) target (m, > 0) then; infinity: above
-  // that until `end`. Besides the speed bound (gap - target) / speed, second_order tries
+  // For how many seconds h from t on the gap along n certainly stays on or above a straight line: from `gap`
+  // at t (m, certified, > target; the pose is given) to (1 - kStepSlack) target (m, > 0) at t + h. Infinity:
+  // it stays above the latter until `end`. Besides the speed bound (gap - target) / speed, second_order tries
   //
   //   along n a point r of a body moves by  h n.(v + w x r)  and at most  h^2/2 |n x w| |w| across(r)  more
   //   (if it turns freely: h^2/2 (|n x w| |w| + |dw/dt|) |r|, the largest values),
   //
-  // for all points at once: n.(w x r) = (n x w).r, so that the support mapping in the turned direction n + h
-  // (n x w) answers which point is ahead after h seconds. What is left of the gap is then concave in h: if it
+  // for all points at once: n.(w x r) = (n x w).r, so the support mapping in the turned direction
+  // n + h (n x w) tells which point is ahead after h seconds. The remaining gap is then concave in h: if it
   // suffices now and after h seconds, it does in between.
   double safe_time(const PairPose& pose, const Vec3& n, double gap, double target, double t,
                    double end) const;
 
  private:
-  // One body, as the plane sees it.
+  // One body of the pair.
   struct Side {
     const Convex& shape;
     const Motion& motion;
-    double reach;  // about the axis of the spin, if the bound asks for it
+    double reach;  // about the axis of the spin, if the bound uses that
   };
   double second_order_time(const PairPose& pose, const Vec3& n, double target, double t,
                            double remaining) const;

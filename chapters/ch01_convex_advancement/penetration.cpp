@@ -16,12 +16,12 @@ namespace {
 // face counts as on it.
 constexpr double kFlat = 64 * kEpsilon;
 
-// The Minkowski difference A - B of the cores, in A's axes, and the best direction to part them so far.
+// The Minkowski difference A - B of the cores, in A's axes, and the best direction found so far to part them.
 struct Difference {
   const Convex& a;
   const Convex& b;
   const Pose& b_in_a;
-  double least = std::numeric_limits<double>::infinity();  // m, the smallest h(n) that was seen
+  double least = std::numeric_limits<double>::infinity();  // m, the smallest h(n) so far
   Vec3 direction = Vec3::UnitX();
   int supports = 0;
 
@@ -87,8 +87,8 @@ class Polytope {
                              [](const Face& p, const Face& q) { return p.offset < q.offset; });
   }
 
-  // Grows to hold the point, which lies outside of at least one face: the faces that see it go, and their rim
-  // is joined to it. False if rounding left nothing to join.
+  // Grows to hold the point, which lies outside at least one face: the faces that see it are removed, and
+  // their rim is joined to it. False if rounding left nothing to join.
   bool grow(const Vec3& point, double rounding) {
     std::vector<std::pair<int, int>> rim;
     const auto sees = [&](const Face& face) { return face.normal.dot(point) > face.offset + rounding; };
@@ -100,7 +100,7 @@ class Polytope {
         if (twin == rim.end())
           rim.push_back(edge);
         else
-          rim.erase(twin);  // between two faces that both go
+          rim.erase(twin);  // between two faces that are both removed
       }
     }
     if (rim.empty()) return false;

@@ -10,7 +10,7 @@ struct Penetration {
   double depth = 0;                // m: B moved by this along `direction` touches A; negative: they are apart
   Vec3 direction = Vec3::UnitX();  // unit, from A to B, world
   double lower = 0;                // m: no translation shorter than this parts them, up to rounding
-  int supports = 0;                // support points that were asked for
+  int supports = 0;                // support points that were computed
 };
 
 struct PenetrationOptions {
@@ -20,10 +20,10 @@ struct PenetrationOptions {
 
 // Depth and direction at the given pose. Along every unit n the shapes part after h(n) = max n.a - min n.b,
 // so each n gives an upper bound; h is the support function of the Minkowski difference A - B, and its
-// smallest value is the distance from the origin, which lies inside, to the surface of A - B. Cores that are
-// apart, under radii that overlap, are left to GJK; else a polytope inside of A - B grows where it is nearest
-// to the origin, until no face can be pushed out any more there (van den Bergen 2001: expanding polytope).
-// Guarantee: B moved along `direction` by `depth` and the rounding term does not overlap A.
+// smallest value is the distance from the origin, which lies inside, to the surface of A - B. Where only the
+// radii overlap and the cores are apart, GJK gives the answer; else a polytope inside A - B grows where it is
+// nearest to the origin, until no face there can be pushed out any more (van den Bergen 2001: expanding
+// polytope). Guarantee: B moved along `direction` by `depth` and the rounding term does not overlap A.
 Penetration penetration(const Convex& a, const Convex& b, const PairPose& pose,
                         const PenetrationOptions& options = {});
 

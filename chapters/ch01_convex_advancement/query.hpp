@@ -1,4 +1,4 @@
-// What a continuous collision query asks and answers, whatever the shapes are (chapters 1 and 2,
+// The options and the result of a continuous collision query, for shapes of any kind (chapters 1 and 2,
 // contract 1.5).
 #pragma once
 
@@ -19,7 +19,7 @@ enum class Status {
   touching_at_start,     // the gap at t = 0 is at most the tolerance, and no overlap is deeper than the
                          // tolerance
   penetrating_at_start,  // the bodies overlap at t = 0 by more than the tolerance, as far as could be proved
-  unresolved             // a limit was reached: proved clear until toc, nothing said after it
+  unresolved             // a limit was reached: proved clear until toc, nothing is known after it
 };
 const char* name_of(Status status);
 inline std::ostream& operator<<(std::ostream& out, Status status) {
@@ -65,13 +65,13 @@ struct AdvanceOptions {
   int max_iterations = 1'000'000;
   bool certificate = false;  // record every advance
   bool features = true;  // find all features in contact (chapter 2; chapter 1 has the witness points anyway)
-  bool end_distance = true;  // and, where nothing was hit, the distance at the end (chapter 2): else
-                             // gap_lower is what the search has proved and gap_upper infinite
+  bool end_distance = true;  // where nothing was hit, find the distance at the end (chapter 2); if false,
+                             // gap_lower is what the search has proved, and gap_upper infinite
   bool warm_start = true;    // GJK begins with the simplex of the pose before (chapter 1)
 };
 
-// Throws std::invalid_argument for an interval or a tolerance that is negative or not finite, and, the second
-// one, for a motion that is not finite.
+// Both throw std::invalid_argument for an interval or a tolerance that is negative or not finite; check_query
+// also for a motion that is not finite.
 void check_options(const AdvanceOptions& options);
 void check_query(const Motion& a, const Motion& b, const AdvanceOptions& options);
 
@@ -80,7 +80,7 @@ struct AdvanceResult {
   double toc = 0;               // s, in [0, interval]; never later than the true first contact
   double gap_lower = 0;         // m, certified, at toc; negative if the start overlaps
   double gap_upper = 0;         // m, distance of the witness points at toc
-  double tolerance = 0;         // m, the one that was used: raised to the rounding term where it was below it
+  double tolerance = 0;         // m, as used: raised to 8 rounding terms where it was smaller
   std::int64_t iterations = 0;  // advances
   std::int64_t distance_calls = 0;
   std::int64_t gjk_iterations = 0;    // of all distance calls (chapter 1)

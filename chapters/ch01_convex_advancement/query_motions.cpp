@@ -75,7 +75,7 @@ LinearQuery::Kind linear_kind(const ReadTable& table, const ReadTable::Row& row)
   if (row.cells[0] == "vf") return LinearQuery::Kind::vertex_face;
   if (row.cells[0] == "ee") return LinearQuery::Kind::edge_edge;
   throw InputError(table.mark(row, 0), "\"" + row.cells[0] +
-                                           "\" is no kind of query; write vf (a vertex and a triangle) or "
+                                           "\" is not a kind of query; write vf (a vertex and a triangle) or "
                                            "ee (two edges)");
 }
 

@@ -85,7 +85,8 @@ struct Tables {
   }
 };
 
-// How the two bodies fly until the query's answer, in frames of a sixtieth of the interval; there they stop.
+// The motion of the two bodies up to the query's answer, where they stop, in frames of a sixtieth of the
+// interval.
 MotionRecording recorded(const Scene& scene, const std::vector<Shape>& shapes, const QueryMotions& query,
                          const AdvanceResult& result, double interval, const std::string& chapter) {
   constexpr int kFrames = 60;
@@ -120,7 +121,7 @@ MotionRecording recorded(const Scene& scene, const std::vector<Shape>& shapes, c
   return motion;
 }
 
-// What a scene says of its bodies that no query depends on: told, so that nothing is passed over in silence.
+// Reports what a scene says of its bodies and no query depends on, so that nothing is ignored in silence.
 void tell_the_rest(const Scene& scene, const std::vector<Shape>& shapes, Summary& summary) {
   for (const Shape& shape : shapes) {
     if (shape.mass.mass == 0) continue;

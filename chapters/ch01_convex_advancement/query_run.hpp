@@ -31,8 +31,8 @@ using Ask = std::function<AdvanceResult(std::size_t query, const AdvanceOptions&
 void run_queries(const Scene& scene, std::size_t queries, const Ask& ask, const RunContext& context,
                  Summary& summary, const std::function<void(const AdvanceResult&)>& finish = {});
 
-// The same for two moving bodies, of which a single query's motion is written too; `add_hulls` (optional)
-// adds to it what it likes.
+// The same for two moving bodies. The motion of a single query is written too; `add_hulls` (optional) may add
+// to it.
 using AskMotions =
     std::function<AdvanceResult(const Motion& a, const Motion& b, const AdvanceOptions& options)>;
 void run_queries(const Scene& scene, const std::vector<Shape>& shapes,

@@ -13,12 +13,11 @@ namespace {
 
 static_assert(LDBL_MANT_DIG >= 64, "a replay in the program's own precision proves little");
 
-constexpr int kMostEvaluations = 100'000;  // for one row; one or two suffice as a rule
-// How far a sum of a few dozen products of rotations, vectors and poses can be off, as a part of the summed
-// sizes.
+constexpr int kMostEvaluations = 100'000;  // for one row; usually one or two suffice
+// The error of a sum of a few dozen products of rotations, vectors and poses, as a share of the summed sizes.
 constexpr Long kRounding = 64 * LDBL_EPSILON;
 constexpr double kUnit = 16 * DBL_EPSILON;  // a unit vector that was turned has length 1 up to this
-constexpr double kChain = 4 * DBL_EPSILON;  // so far may two times differ that are meant to be the same
+constexpr double kChain = 4 * DBL_EPSILON;  // two times that are meant to be the same may differ by this
 
 // R^T d, where R turns the body's axes into the world's at t.
 LongVec in_body_axes(const Motion& m, Long t, LongVec d) {
@@ -45,7 +44,7 @@ Long support_value(const ReplayShape& shape, const LongVec& d) {
   return most;
 }
 
-// The core's largest distance from the line through the centre of mass along the spin; at least.
+// No smaller than the core's largest distance from the line through the centre of mass along the spin.
 Long reach_across(const ReplayShape& shape, const Motion& m) {
   const LongVec spin = m.rotation.cast<Long>().transpose() * m.spin.cast<Long>();
   if (spin.norm() == 0) return 0;
@@ -101,7 +100,7 @@ std::string text(Long value, int digits = 9) {
   return fmt::format("{:.{}g}", value, digits);
 }
 
-// Shows what a row claims: prove_above() for some pair.
+// Proves what a row claims: prove_above() for some pair.
 using RowProver = std::function<ReplayProof(const LongVec& n, Long t, Long gap, Long speed, Long duration)>;
 
 // What is wrong with one row, or "".
@@ -115,7 +114,7 @@ std::string check_row(const RowProver& prove, const CertificateRow& row, Long re
   if (Long(row.t) < reached_before * (1 - Long(kChain)))
     return fmt::format("it starts at {:.17g} s, before the end of the row before it, {:.17g} s", row.t,
                        static_cast<double>(reached_before));
-  // A line that begins below 0 and rises may be true, and proves nothing.
+  // A line that begins below 0 and rises may be true, but proves nothing.
   if (!(row.gap_lower >= 0)) return "gap_lower is negative, " + text(row.gap_lower) + " m: nothing is clear";
   const Long used = Long(row.speed_bound) * Long(row.advance) * (1 - LDBL_EPSILON);
   if (used > Long(row.gap_lower))
@@ -191,7 +190,7 @@ std::vector<Refusal> check_rows(const RowProver& prove, double interval, const R
   return wrong;
 }
 
-// B - A's corners along n at t, the least of them, less what rounding may have added.
+// The smallest n.p of B - A's corners at t, less what rounding may have added.
 Long linear_gap(const LinearQuery& q, double interval, const LongVec& n, Long t) {
   const int split = q.kind == LinearQuery::Kind::vertex_face ? 1 : 2;
   Long least = std::numeric_limits<Long>::infinity();

@@ -1,9 +1,9 @@
-// Certificates checked: does every row claim what is true, and do the rows prove the answer?
+// Checks certificates: is every row's claim true, and do the rows prove the answer?
 //
-// Nothing here uses GJK, the motion bounds or double precision: a row is not asked by which formula it was
-// made, only whether it is true. All arithmetic is in long double (64 bits of mantissa or more), whose
-// rounding is bounded in replay.cpp and taken off; it is 2000 times smaller than the rounding term that
-// chapter 1 has already taken off its gaps. Interval arithmetic would prove no more with more code.
+// Nothing here uses GJK, the motion bounds or double precision: it does not matter by which formula a row was
+// made, only whether it is true. All arithmetic is in long double (64 bits of mantissa or more). Its rounding
+// is bounded in replay.cpp and subtracted; it is 2000 times smaller than the rounding term that chapter 1 has
+// already subtracted from its gaps. Interval arithmetic would prove no more with more code.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,8 +19,8 @@ namespace fc::ca {
 using Long = long double;
 using LongVec = Eigen::Matrix<Long, 3, 1>;
 
-// The convex hull of points, each with a disk about it across its axis and a ball of its own, rounded by a
-// ball.
+// The convex hull of points, each with a disk across its axis and a ball of its own; the whole is rounded by
+// a further ball.
 struct ReplayShape {
   std::vector<LongVec> points;  // m, about the centre of mass, body axes
   std::vector<Long> disks;      // m, the radius of each point's disk; empty: no disks
@@ -33,7 +33,7 @@ struct ReplayShape {
 };
 ReplayShape replay_shape(const Shape& shape);
 
-// What was asked: as the program reads it, with the poses and velocities that it starts from.
+// The query, as the program reads it, with the poses and velocities at its start.
 struct ReplayQuery {
   const ReplayShape& shape_a;
   const ReplayShape& shape_b;
@@ -41,7 +41,7 @@ struct ReplayQuery {
   double interval;  // s
 };
 
-// What was answered: a row of queries.csv.
+// The answer: a row of queries.csv.
 struct ReplayAnswer {
   Status status;
   double toc;  // as a fraction of the interval
@@ -53,10 +53,10 @@ struct ReplayAnswer {
 //
 // A point r of a body (from its centre of mass, world axes at t) moves along n by
 //   h n.v + h^2/2 n.a + h n.(w x r)  and a rest of at most  h^2/2 |n x w| |w x r| ,
-// so with the support function in the direction n + h (n x w) the whole body's farthest point after h seconds
-// is known up to that rest. What it leaves of the gap above the line is concave in h: if it is >= 0 at both
-// ends of a step it is so in between. Steps are halved until that can be shown. The error of a step shrinks
-// with its square, so whatever is true by more than rounding is shown in the end.
+// so the support function in the direction n + h (n x w) gives the whole body's farthest point after h
+// seconds up to that rest. What remains of the gap above the line is concave in h: if it is >= 0 at both ends
+// of a step, it is so in between. Steps are halved until that can be shown. The error of a step shrinks with
+// its square, so whatever is true by more than rounding is shown in the end.
 struct ReplayProof {
   bool proved = false;
   Long reached = 0;  // s, after t: proved until here
@@ -78,12 +78,12 @@ std::string replay_row(const ReplayQuery& query, const CertificateRow& row);
 std::string replay_answer(double interval, const ReplayAnswer& answer, bool has_rows);
 
 // Everything that is wrong with an answer and its certificate; empty if each row is true and all of them
-// together prove the pair clear from 0 to toc. That it is within the tolerance at toc is not the
-// certificate's business: features.csv has two points of the surfaces for that.
+// together prove the pair clear from 0 to toc. The certificate does not show that the pair is within the
+// tolerance at toc: features.csv has two points of the surfaces for that.
 std::vector<Refusal> replay(const ReplayQuery& query, const ReplayAnswer& answer,
                             const std::vector<CertificateRow>& rows);
-// The same for corners that fly straight: along a fixed n their gap is concave in time, so both ends of a row
-// tell.
+// The same for corners that fly straight: along a fixed n their gap is concave in time, so checking both ends
+// of a row suffices.
 std::vector<Refusal> replay(const LinearQuery& query, double interval, const ReplayAnswer& answer,
                             const std::vector<CertificateRow>& rows);
 

@@ -27,7 +27,7 @@ ca::ReplayQuestions questions_of(const Scene& scene, const std::filesystem::path
           }};
 }
 
-// The same, asked of the checker of exercise 1.10.
+// The same, with the checker of exercise 1.10.
 ca::ReplayQuestions clear_questions_of(const Scene& scene, const ca::clear::Pieces& pieces) {
   if (scene.linear)
     throw InputError(*scene.mark("linear"),
@@ -60,7 +60,7 @@ int main(int argc, char** argv) {
   program.purpose =
       "Checks the certificate of a run of chapter 1: that every row of certificate.csv is true, and that the "
       "rows together prove what queries.csv says. It uses neither GJK nor the motion bounds, and computes in "
-      "long double. Each row that is refused is a line on standard error. Exit code 0: all is proved; 3: "
+      "long double. Standard error has a line for each row that is refused. Exit code 0: all is proved; 3: "
       "something is not; 2: bad input.";
   program.example =
       "Example:\n"

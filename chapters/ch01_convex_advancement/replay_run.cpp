@@ -28,15 +28,15 @@ Arguments parse(int argc, char** argv, const ReplayProgram& program) {
   app.footer(program.example);
   app.add_option("SCENE", arguments.source.file, "The scene of the run")->required()->type_name("FILE");
   app.add_option("RUN_DIR", arguments.run, "The folder that the run wrote")->required()->type_name("DIR");
-  app.add_option("--set", arguments.source.overrides, "As it was given to the run (repeatable)")
+  app.add_option("--set", arguments.source.overrides, "As given to the run (repeatable)")
       ->expected(1)
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->type_name("KEY.PATH=VALUE");
   app.add_flag("--quiet", arguments.quiet, "Print nothing but what is refused");
   if (program.clear_questions) {
-    CLI::Option* clear = app.add_flag("--clear", arguments.clear, "Check with the clear version of the text");
-    app.add_flag("--mine", arguments.mine, "As --clear, with your own checker if it passes ./run check")
+    CLI::Option* clear = app.add_flag("--clear", arguments.clear, "Check with the text's clear version");
+    app.add_flag("--mine", arguments.mine, "Like --clear, but with your own checker if it passes ./run check")
         ->excludes(clear);
   }
   try {
@@ -50,14 +50,13 @@ Arguments parse(int argc, char** argv, const ReplayProgram& program) {
   return arguments;
 }
 
-// The rows of a table that speak of one query, in their order.
+// The certificate rows of one query, in their order.
 struct Certificate {
   std::vector<CertificateRow> rows;
   std::vector<int> lines;  // of the file
 };
 
-// What stands in a run's folder, and what is wrong with its numbering (rows that are out of order), line by
-// line.
+// The tables in a run's folder, and what is wrong with their numbering (rows out of order), line by line.
 struct RunFiles {
   ReadTable queries, certificate;
   std::vector<ReplayAnswer> answers;
@@ -72,7 +71,7 @@ Status status_of(const ReadTable& table, const ReadTable::Row& row) {
   throw InputError(
       table.mark(row, 1),
       "\"" + row.cells[1] +
-          "\" is no status; write contact, separated, touching_at_start, penetrating_at_start or "
+          "\" is not a status; write contact, separated, touching_at_start, penetrating_at_start or "
           "unresolved");
 }
 
@@ -111,7 +110,7 @@ RunFiles read_run(const std::filesystem::path& folder, std::size_t asked) {
       run.wrong.emplace_back(row.line, "row " + row.cells[1] + " of query " + row.cells[0] +
                                            " is out of order, or one before it is missing");
     last = query;
-    next = x[1] + 1;  // so that what is missing is said once
+    next = x[1] + 1;  // so that a missing row is reported once
     certificate.rows.push_back({x[2], {x[3], x[4], x[5]}, x[6], x[7], x[8]});
     certificate.lines.push_back(row.line);
   }

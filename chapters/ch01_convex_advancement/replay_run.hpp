@@ -1,5 +1,5 @@
-// What the programs share that check the certificates of chapters 1 and 2: options, tables, messages, exit
-// codes.
+// What ch01_replay and ch02_replay share, the programs that check certificates: options, tables, messages,
+// exit codes.
 #pragma once
 
 #include <filesystem>
@@ -26,7 +26,7 @@ struct ReplayProgram {
   std::string purpose, example;  // for --help
   using Ask = std::function<ReplayQuestions(const Scene&, const std::filesystem::path& run)>;
   Ask questions;
-  // With --clear and --mine: replayed by a piece that a learner may write. None: there is no such option.
+  // With --clear and --mine: the replay by a piece that a learner may write. None: there are no such options.
   Ask clear_questions = {};
   std::vector<PieceSlot> pieces = {};
 };

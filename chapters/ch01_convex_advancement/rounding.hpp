@@ -1,4 +1,4 @@
-// How far a double may be off, and times that add up to no more than they should.
+// The rounding of doubles, and sums of times that are never too large.
 #pragma once
 
 #include <cmath>
@@ -16,7 +16,7 @@ inline double sum_below(double t, double step) {
   return lost < 0 ? std::nextafter(sum, t) : sum;
 }
 
-// What is left of the interval at t, rounded up: a last row of a certificate must reach the end.
+// What is left of the interval at t, rounded up: the last row of a certificate must reach the end.
 inline double remaining_above(double t, double interval) {
   const double remaining = interval - t;
   return sum_below(t, remaining) < interval ? std::nextafter(remaining, interval) : remaining;

@@ -55,7 +55,8 @@ void triangle(const Points& p, int i, int j, int k, SimplexPoint& s) {
     s.direction = along < 0 ? Vec3(-normal) : normal;
     return;
   }
-  // The closest point is on an edge, of those beyond which the origin lies (rounding: of all, if none).
+  // The closest point is on one of the edges beyond which the origin lies (if rounding leaves none, on any
+  // edge).
   const bool near_jk = !(at_i > 0), near_ki = !(at_j > 0), near_ij = !(at_k > 0);
   s.point.setConstant(std::numeric_limits<double>::infinity());
   const bool none = !(near_jk || near_ki || near_ij) || !(area2 > 0);

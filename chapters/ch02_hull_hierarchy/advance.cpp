@@ -18,7 +18,7 @@ void advance(const Model& a, const ca::Motion& motion_a, const Model& b, const c
                                                               ca::rounding_term(a.whole(), b.whole(), end)));
   const double tolerance = result.tolerance;
 
-  ReachOptions search;
+  TocOptions search;
   search.interval = options.interval;
   search.tolerance = tolerance;
   search.target = 0.5 * tolerance;
@@ -26,22 +26,22 @@ void advance(const Model& a, const ca::Motion& motion_a, const Model& b, const c
   search.start = tolerance;
   search.max_pairs = options.max_iterations;
   memory.certificate = options.certificate ? &result : nullptr;
-  const Reach reach = first_reach(a, motion_a, b, motion_b, search, memory);
+  const TimeOfContact toc = time_of_contact(a, motion_a, b, motion_b, search, memory);
   memory.certificate = nullptr;
-  result.iterations = reach.advances;
-  result.node_pairs = reach.node_pairs;
-  result.distance_calls = reach.leaf_pairs;
-  result.toc = reach.time;
+  result.iterations = toc.advances;
+  result.node_pairs = toc.node_pairs;
+  result.distance_calls = toc.leaf_pairs;
+  result.toc = toc.time;
   const bool inside = one_inside_other(a, b, start, tolerance);
-  const bool at_start = reach.status == Reach::Status::reached && reach.time == 0;
+  const bool at_start = toc.status == TimeOfContact::Status::reached && toc.time == 0;
   if (inside) result.toc = 0;
   const ca::PairPose pose(motion_a, motion_b, result.toc);
-  if (reach.status == Reach::Status::reached && !at_start && !inside) {
+  if (toc.status == TimeOfContact::Status::reached && !at_start && !inside) {
     // Every other pair keeps its target until `toc` or longer.
-    result.gap_lower = std::min(reach.pair.gjk.lower, search.target);
-    result.gap_upper = reach.pair.gjk.upper;
+    result.gap_lower = std::min(toc.pair.gjk.lower, search.target);
+    result.gap_upper = toc.pair.gjk.upper;
     result.status = result.gap_upper <= tolerance ? ca::Status::contact : ca::Status::unresolved;
-  } else if (reach.status == Reach::Status::clear && !inside && !options.end_distance) {
+  } else if (toc.status == TimeOfContact::Status::clear && !inside && !options.end_distance) {
     result.gap_lower = search.target;
     result.gap_upper = std::numeric_limits<double>::infinity();
     result.status = ca::Status::separated;
@@ -53,7 +53,7 @@ void advance(const Model& a, const ca::Motion& motion_a, const Model& b, const c
     result.gap_upper = inside ? 0 : d.upper;
     result.status = inside || (at_start && d.lower < -tolerance) ? ca::Status::penetrating_at_start
                     : at_start                                   ? ca::Status::touching_at_start
-                    : reach.status == Reach::Status::clear       ? ca::Status::separated
+                    : toc.status == TimeOfContact::Status::clear ? ca::Status::separated
                                                                  : ca::Status::unresolved;
   }
   if (!options.features) return;

@@ -8,14 +8,14 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kUnit = 0x1p-24f;  // the rounding of a float, relative
 
-// Of what a gap is the sum of: coordinates once, differences and extents in products and sums of up to ten
-// terms.
+// The rounding of a gap, relative to its terms: coordinates once, differences and extents in products and
+// sums of up to ten terms.
 constexpr float kGapRounding = 2 * 12 * kUnit;
 constexpr float kPlaceRounding = 2 * 2 * kUnit;
-// Of the sizes that a speed is the sum of, and of a step.
+// The rounding of a speed, relative to its terms, and of a step.
 constexpr float kSpeedRounding = 32 * kUnit;
 constexpr float kStepRounding = 128 * kUnit;
-// Of a cross product, relative to the product of the lengths: it may be small because it cancels.
+// The rounding of a cross product, relative to the product of the lengths: its terms may cancel.
 constexpr float kCross = 8 * kUnit;
 
 Lanes3 spread(const Vec3f& x) {
@@ -98,7 +98,7 @@ struct FourPairs {
                                         v.other_spin.lpNorm<1>() * v.other_reach));
   }
 
-  // The line between a point of each box and one of the other, brought near each other in turns.
+  // The line between a point of each box and a point of the other box, found by alternating projection.
   Lanes3 projected_normal() const {
     Lanes3 p = other.center, q = p;
     for (int turn = 0; turn < 2; ++turn) {
@@ -113,7 +113,7 @@ struct FourPairs {
     }
     const Lanes3 n = p - q;
     const Lanes length = norm(n);
-    // Boxes that overlap have no direction between them; any will do, and none helps.
+    // Boxes that overlap have no direction between them: any will do, since none gives a gap.
     return select(length > kUnit * (boxes.radius + other.radius), (1 / length) * n,
                   spread(Vec3f(Vec3f::UnitX())));
   }

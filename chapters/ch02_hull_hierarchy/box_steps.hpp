@@ -9,8 +9,8 @@ namespace fc::hulls {
 using Vec3f = Eigen::Vector3f;
 using Mat3f = Eigen::Matrix3f;
 
-// The pair of bodies at one time, seen from one of them, which is opened; the other one's box is looked at
-// as a whole. Everything in the opened body's axes, from its centre of mass.
+// The pair of bodies at one time, seen from the one whose node is opened; the other one's box stays whole.
+// All in the opened body's axes, from its centre of mass.
 struct OpenedView {
   Mat3 rotation;             // world to the opened body's axes
   Mat3 other_axes;           // the other body's axes to these
@@ -31,10 +31,10 @@ PairViews views_at_rest(const ca::PairPose& pose);
 PairViews views_of(const ca::PairPose& pose, const ca::Motion& motion_a, double reach_a,
                    const ca::Motion& motion_b, double reach_b, double t);
 
-// What all steps of a query share.
+// What all steps of a query have in common.
 struct StepLimits {
   float target;     // m, the gap that must be left, rounding radii included
-  float keep;       // m, a gap of no more than this is not advanced at all (>= target)
+  float keep;       // m, a pair with a gap of at most this is not advanced (>= target)
   float remaining;  // s, until the end of the interval
 };
 

@@ -22,8 +22,8 @@ struct Box {
   double surface() const { return half[0] * half[1] + half[1] * half[2] + half[2] * half[0]; }
 };
 
-// The nearest floats. Through memory: GCC 12's vectoriser takes a double that is made a float and a double
-// again for the same number.
+// The nearest floats. Through memory: GCC 12's vectoriser assumes that a double converted to float and back
+// is unchanged.
 Vec3f rounded(const Vec3& x) {
   Vec3f result;
   for (int k = 0; k < 3; ++k) {
@@ -37,7 +37,7 @@ Box box_along(const Mat3& axes, std::span<const Vec3> points, double noise) {
   Box box;
   box.u = rounded(axes.col(0));
   box.v = rounded(axes.col(1));
-  Mat3 basis;  // as it will be read
+  Mat3 basis;  // as the floats will be read
   basis << box.u.cast<double>(), box.v.cast<double>(), box.u.cross(box.v).cast<double>();
   const Mat3 coordinates = basis.inverse();
   const auto spread = [&](const Vec3& middle) {

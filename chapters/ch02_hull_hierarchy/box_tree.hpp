@@ -12,7 +12,7 @@ namespace fc::hulls {
 
 // Four boxes, the children of one node, in single precision: four cache lines. Box k has all points
 //   center + s_0 u_0 + s_1 u_1 + s_2 u_2,  |s_i| <= half_i,   u_2 = u_0 x u_1 as floats make it.
-// That is what the box means, whatever rounding did to its axes: it holds everything below it all the same.
+// The box is that set, whatever rounding did to its axes: it holds everything below it all the same.
 struct alignas(64) BoxQuad {
   Lanes3 center;  // m, shape axes, about the centre of mass
   Lanes3 axis[2];
@@ -47,7 +47,7 @@ struct BoxTree {
 // are the best of a few: the principal axes of the triangles' area, the shape's axes, those of a triangle.
 // "Best" is the smallest surface. `whole`: one leaf for all vertices (a convex core).
 BoxTree build_box_tree(const FeatureMesh& mesh, bool whole);
-// Over leaves that are given by points around them: a leaf's item is its number here.
+// Over leaves given by points whose hull contains them: a leaf's item is its index in `leaves`.
 BoxTree build_box_tree(const std::vector<std::vector<Vec3>>& leaves);
 
 }  // namespace fc::hulls

@@ -11,7 +11,7 @@
 namespace fc::hulls {
 namespace {
 
-// Height over longest side of a triangle. A flatter triangle has no direction that is exact enough to be extended to a
+// Height over longest side of a triangle. The normal of a flatter triangle is not exact enough to extend it to a
 // plane.
 constexpr double kNeedleHeight = 1e-4;
 constexpr double kFlatThickness = 1e-9;  // of the piece's size; thinner pieces are checked as polygons
@@ -40,8 +40,8 @@ class TriangleGrid {
       for_cells(box_of(t), [&](std::vector<int>& cell) { cell.push_back(t); });
   }
 
-  // Calls visit(triangle) once for each triangle whose box meets the given one, until it returns true; then
-  // so does this.
+  // Calls visit(triangle) once for each triangle whose box meets the given one, until it returns true.
+  // Returns whether it did.
   template <class Visit>
   bool any_near(const Eigen::AlignedBox3d& box, Visit visit) {
     ++round_;
@@ -224,7 +224,7 @@ struct Decomposition {
     for (int seed = 0; seed < static_cast<int>(mesh.triangles.size()); ++seed) {
       if (taken[seed]) continue;
       grow(seed);
-      while (!hull_inside()) {  // give the later half back
+      while (!hull_inside()) {  // give up the later half
         const std::vector<int> first_half(piece.begin(),
                                           piece.begin() + static_cast<int>(piece.size() + 1) / 2);
         piece.clear();

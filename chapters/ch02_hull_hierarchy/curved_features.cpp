@@ -15,7 +15,7 @@ using Vec2 = Eigen::Vector2d;
 constexpr double kFacing = 0.05;    // cosine: a face that turns farther away has no height along the normal
 constexpr double kParallel = 1e-3;  // sine of the angle between segments that lie along each other
 constexpr double kSame = 1e-9;      // of both reaches: corners nearer than this are one
-constexpr double kAsGood = 1e-13;   // of both reaches: planes whose gaps differ by less part the two as well
+constexpr double kAsGood = 1e-13;   // of both reaches: planes whose gaps differ by less are equally good
 
 double cross2(const Vec2& u, const Vec2& v) {
   return u.x() * v.y() - u.y() * v.x();
@@ -34,7 +34,7 @@ struct Plane {
   Vec3 normal, point;
 };
 
-// One side as the normal sees it.
+// One of the two sides, seen along the normal.
 struct Seen {
   const Model& model;
   int triangle;  // the leaf's, of a mesh; else -1
@@ -97,7 +97,7 @@ struct Seen {
     for (int t = std::max(triangle, 0); t < static_cast<int>(model.mesh.triangles.size()); ++t) {
       if (triangle >= 0 && t > triangle) break;
       const double along = model.mesh.normals[t].dot(direction);
-      const double facing = triangle >= 0 ? std::abs(along) : along;  // one alone has two sides
+      const double facing = triangle >= 0 ? std::abs(along) : along;  // a triangle alone has two sides
       if (facing < kFacing) continue;
       planes.push_back({pose.rotation * (along < 0 ? Vec3(-model.mesh.normals[t]) : model.mesh.normals[t]),
                         pose * vertices[model.mesh.triangles[t][0]]});
@@ -203,8 +203,8 @@ std::vector<Vec2> shared_corners(const std::vector<Vec2>& a, const std::vector<V
   return shared;
 }
 
-// The plane that parts two leaves best, of those that are looked at. One that is looked at later counts, too,
-// if it is as good up to rounding: those whose normals are exact come last.
+// The best separating plane of two leaves among those tried. A later one also wins if it is as good up to
+// rounding: those with exact normals come last.
 struct BestPlane {
   const ca::Convex leaf_a, leaf_b;
   const ca::PairPose& pose;
@@ -228,7 +228,8 @@ struct BestPlane {
   }
 };
 
-// The nearest face of a polyhedron, or of a triangle of a mesh the one that looks there.
+// The normal of a polyhedron's face that faces there best; of a mesh's triangle, its normal turned towards
+// there.
 std::optional<Vec3> face_towards(const Seen& side, const Vec3& outward) {
   const FeatureMesh& mesh = side.model.mesh;
   int face = side.triangle;
@@ -238,8 +239,8 @@ std::optional<Vec3> face_towards(const Seen& side, const Vec3& outward) {
   return mesh.normals[face].dot(outward) < 0 ? Vec3(-mesh.normals[face]) : mesh.normals[face];
 }
 
-// The unit normal (world, from A to B) of the plane that parts the two best: GJK's, a line's of a curved
-// side, a cap's, or a face's.
+// The unit normal (world, from A to B) of the best separating plane: GJK's, that of a curved side's line, a
+// cap's, or a face's.
 void look_at_surfaces(const Seen& a, const Seen& b, BestPlane& best) {
   const Vec3 found = best.normal;
   enum { side, cap, face };
@@ -258,7 +259,7 @@ void look_at_surfaces(const Seen& a, const Seen& b, BestPlane& best) {
     }
 }
 
-// The normal of the plane along two lines that cross, if that is what the sides show (A's axes, from A to B).
+// The normal of the plane along two crossing lines, if each side shows a line (A's axes, from A to B).
 std::optional<Vec3> crossing_normal(const Seen& a, const Seen& b, const Frame& frame) {
   if (a.corners.size() != 2 || b.corners.size() != 2) return std::nullopt;
   const auto line = [&](const Seen& side) {

@@ -1,4 +1,4 @@
-// A core with its edges and who borders whom: what contact features are read from.
+// A core with its edges and adjacencies, from which contact features are read.
 #pragma once
 
 #include <array>

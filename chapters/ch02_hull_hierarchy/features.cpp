@@ -16,15 +16,15 @@ using ca::FeaturePair;
 
 // Sine of the angle by which a normal may leave a cone and count as on its border.
 constexpr double kConeSlack = 1e-9;
-constexpr double kSameNormal = 1e-6;  // sine of the angle between normals that say the same
-// Sine of the angle below which edges have no cross product to speak of.
+constexpr double kSameNormal = 1e-6;  // sine of the angle between normals that count as the same
+// Sine of the angle below which the cross product of two edges is mostly rounding.
 constexpr double kParallelEdges = 1e-7;
 // As a share of the model's reach: a vertex that is this far outside a face's border still lies over the face.
 constexpr double kOnBorder = 1e-9;
 constexpr double kJoined = 1e-12;  // of the models' reach: nearer points have no direction between them
 
-// One model at the pose, in A's axes from A's centre of mass, and the features of one of its leaves that can
-// matter.
+// One model at the pose, in A's axes from A's centre of mass, and the features of one of its leaves that may
+// be in contact.
 struct Placed {
   const Model& model;
   Pose pose;
@@ -33,8 +33,8 @@ struct Placed {
   Vec3 vertex(int v) const { return pose * model.mesh.vertices[v]; }
   Vec3 turned(const Vec3& direction) const { return pose.rotation * direction; }
 
-  // Keeps the features of a leaf that reach within `depth` (m) of its support plane along n: everything that
-  // is nearer to the other side than the tolerance does.
+  // Keeps the features of a leaf that reach within `depth` (m) of its support plane along n. Whatever is
+  // nearer to the other side than the tolerance does.
   void select(int leaf, const Vec3& n, double depth) {
     const Vec3 direction = pose.rotation.transpose() * n;
     const FeatureMesh& mesh = model.mesh;
@@ -77,7 +77,7 @@ struct Placed {
     return inside;
   }
   bool on_edge(int v) const { return model.mesh.vertex_kind[v] == Vertex::on_edge; }
-  // Along the edge that a vertex is drawn on.
+  // The direction of the edge that a vertex is drawn on.
   Vec3 drawn_on(int v) const {
     Vec3 along = Vec3::Zero();
     for_items(model.mesh.vertex_edges, v, [&](int e) {
@@ -105,7 +105,7 @@ struct Collector {
   Vec3 toward;  // the plane of the pair of pieces that is looked at
   std::vector<FeaturePair> found;
 
-  // Whether points that are so far apart have a direction between them, or only rounding.
+  // Whether two points at this distance (m) have a direction between them, or only rounding.
   bool has_direction(double apart) const { return apart > kJoined * (a.model.reach + b.model.reach); }
 
   // Points are on the cores; n from A to B. `gap` is between the rounded surfaces.
@@ -125,8 +125,8 @@ struct Collector {
   }
 
   // A vertex of one body over a face of the other. `sign`: +1 if the vertex is A's.
-  // One that is drawn on an edge tells nothing that the edge's end, or its crossing with the face's border,
-  // does not.
+  // A vertex that is drawn on an edge adds nothing to the edge's end, or to its crossing with the face's
+  // border.
   void vertex_face(const Placed& with_vertex, int v, const Placed& with_face, int t, double sign) {
     if (with_vertex.model.mesh.vertex_kind[v] == Vertex::on_edge) return;
     const Vec3 x = with_vertex.vertex(v);
@@ -135,7 +135,7 @@ struct Collector {
     const Vec3 p = with_face.vertex(corner[0]);
     double height = outward.dot(x - p);
     if (std::abs(std::abs(height) - radii) > tolerance) return;
-    if (-sign * outward.dot(toward) <= 0) {  // the face looks away; a mere surface has two sides
+    if (-sign * outward.dot(toward) <= 0) {  // the face faces away; a mere surface has two sides
       if (with_face.model.mesh.solid) return;
       outward = -outward;
       height = -height;
@@ -167,15 +167,15 @@ struct Collector {
     Vec3 n = cross / std::sqrt(size2);
     const Vec3 x = p + s * u, y = q + r * v;
     const double apart = n.dot(y - x);
-    // Which way is from A to B: where the gap is more than rounding, the gap decides; else the cones do.
+    // The direction from A to B: where the gap is more than rounding, the gap decides; else the cones do.
     if (apart < -tolerance || (std::abs(apart) <= tolerance && n.dot(toward) < 0)) n = -n;
     if (!a.edge_cone(e, n) || !b.edge_cone(f, -n)) return;
     add(x, y, n, FeatureKind::edge, e, FeatureKind::edge, f);
   }
 
-  // Where two edges cross at a vertex that is drawn on one of them, or on both: their points there, and their
-  // cross product, which is exact, for `n` (to its side). False if they are parallel (their ends tell), or
-  // cross elsewhere (edge_edge tells). x and y: on the edges along u and v.
+  // For two edges that cross at a vertex drawn on one of them, or on both: moves x and y (on the edges along
+  // u and v) there, and sets n, on its own side, to the exact cross product. False if the edges are parallel
+  // (their ends decide), or cross elsewhere (edge_edge decides).
   bool cross_here(Vec3& x, const Vec3& u, Vec3& y, const Vec3& v, Vec3& n) const {
     const Vec3 cross = u.cross(v);
     const double size2 = cross.squaredNorm();
@@ -190,7 +190,8 @@ struct Collector {
     return true;
   }
 
-  // A vertex nearest to the inside of an edge, or to a vertex: the normal joins them. `v` is with_vertex's.
+  // A vertex that is nearest to the inside of an edge, or to a vertex: the normal joins them. `v` is
+  // with_vertex's.
   void vertex_edge(const Placed& with_vertex, int v, const Placed& with_edge, int e, double sign) {
     const auto& [i, j] = with_edge.model.mesh.edges[e].vertex;
     Vec3 x = with_vertex.vertex(v);
@@ -290,7 +291,7 @@ Vec3 nearest_on(const ca::Convex& triangle, const Vec3& x) {
 }
 
 // The witness points of two triangles that touch or overlap are those of a pose in which one was pushed aside. The contact
-// is where the two have a point in common: A's point is carried to the other triangle and back until it stays.
+// is where the two have a point in common: A's point is projected to the other triangle and back until it stays.
 void meet_in_one_point(const Model& a, const Model& b, const LeafPair& pair, const ca::PairPose& pose,
                        FeaturePair& w) {
   constexpr int kRounds = 32;
@@ -343,7 +344,8 @@ void add_features_of_leaves(const Model& a, const Model& b, const ca::PairPose& 
                         {}};
     collector.leaves(local, pose.rotation_a.transpose() * pair.gjk.normal);
     features = std::move(collector.found);
-    // Far apart for their size, features near an edge can be near each other in directions that part nothing.
+    // At a distance that is large for their size, features near an edge can be near each other in directions
+    // that separate nothing.
     if (one.filled && other.filled)
       std::erase_if(features, [&](const FeaturePair& f) {
         return ca::support_gap(one.leaf(0), other.leaf(0), pose, pose.rotation_a * f.normal) < -tolerance;
@@ -367,8 +369,7 @@ void add_features_of_leaves(const Model& a, const Model& b, const ca::PairPose& 
   }
 }
 
-// Faces first, then edges, then vertices, so that of pairs that say the same the one with the best normal
-// stays.
+// Faces first, then edges, then vertices, so that of equivalent pairs the one with the best normal stays.
 void sort_and_merge(std::vector<FeaturePair>& pairs, double tolerance) {
   const auto rank = [](const FeaturePair& p) {
     const bool face = p.kind_a == FeatureKind::face || p.kind_b == FeatureKind::face;

@@ -19,17 +19,17 @@ namespace fc::hulls {
 //   vertex-edge, vertex-vertex   only where no face and no edge is nearer; the normal joins the points
 //
 // An edge or vertex takes part only if the normal lies in its cone: moving along a neighbouring face or edge
-// must not lead nearer to the other body, else that face or edge is the contact. Pairs that say the same
-// (same normal within 1e-6, points within the tolerance) are merged; the result is sorted by kinds and
-// numbers. Vertices, edges and faces are numbered as in Model::mesh. If the features' tests leave nothing,
-// the nearest witness points are the contact.
+// must not lead nearer to the other body, else that face or edge is the contact. Equivalent pairs (same
+// normal within 1e-6, points within the tolerance) are merged; the result is sorted by kinds and numbers.
+// Vertices, edges and faces are numbered as in Model::mesh. If no pair of features passes, the nearest
+// witness points are the contact.
 //
-// Cylinders and cones have their own: see curved_features.hpp, and outline.hpp for the numbers of their
-// features. A compound's features are its parts', as far as they are on the surface of the union; those of a
-// part are numbered from Model::first_name on.
+// For cylinders and cones see curved_features.hpp, and outline.hpp for the numbers of their features. A
+// compound's features are those of its parts that lie on the surface of the union, numbered from
+// Model::first_name on.
 //
-// `gap`, if it is given, becomes the certified gap of the two (m), if that is at most the tolerance; it is
-// left alone if not.
+// `gap` (optional) receives the certified gap of the two (m) if that is at most the tolerance, and is
+// unchanged if not.
 std::vector<ca::FeaturePair> contact_features(const Model& a, const Model& b, const ca::PairPose& pose,
                                               const Vec3& origin_a, double tolerance, double* gap = nullptr);
 

@@ -24,7 +24,8 @@ std::vector<std::vector<Vec3>> points_of_pieces(const FeatureMesh& mesh, const L
 
 HullModel build_hull_model(const Model& model, clear::HullTreeFunction* hull_tree) {
   if (model.curved() || !model.parts.empty())
-    throw std::invalid_argument("build_hull_model: the model is curved, or has parts; hulls are of points");
+    throw std::invalid_argument(
+        "build_hull_model: the model is curved, or has parts; only points have hulls here");
   HullModel hulls;
   hulls.radius = model.radius;
   hulls.reach = model.reach;

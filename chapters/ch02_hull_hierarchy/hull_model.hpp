@@ -27,7 +27,7 @@ HullModel build_hull_model(const Model& model, clear::HullTreeFunction* hull_tre
 // Makes a model ready for the clear search: Model::hulls. Throws as build_hull_model.
 void add_hulls(Model& model, const clear::Pieces& pieces);
 
-// How many points the hulls of all nodes have.
+// The number of points of all nodes' hulls.
 std::int64_t points_in(const HullTree& tree);
 
 // Each piece's distinct vertices. A core without triangles (a point, a segment) is one piece of all its vertices.

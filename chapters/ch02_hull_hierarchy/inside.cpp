@@ -12,7 +12,7 @@ namespace {
 constexpr double kTripleRounding = 32 * std::numeric_limits<double>::epsilon();
 
 // Counts the triangles through which a ray from `point` along `direction` leaves the mesh, less those through
-// which it enters. Nothing if the ray comes too close to an edge, or begins too close to a triangle, to be
+// which it enters. Empty if the ray comes too close to an edge, or begins too close to a triangle, to be
 // sure.
 struct Ray {
   const Model& model;
@@ -50,8 +50,8 @@ struct Ray {
   std::optional<int> count() { return node(0, 0) ? std::optional(leaving) : std::nullopt; }
 };
 
-// By the first of a few rays that is clear of all edges; by the angles of all triangles if none is, and of a
-// convex shape, which is one leaf.
+// By the first of a few rays that keeps clear of all edges. If none does, and for a convex shape, which is
+// one leaf: by the solid angles of all triangles.
 double windings(const Model& model, const Vec3& point) {
   if (model.filled) return winding_number(model.mesh, point);
   static constexpr std::array<std::array<double, 3>, 4> kDirections{
@@ -77,7 +77,8 @@ bool component_inside(const Model& inner, const Model& outer, const Pose& inner_
     const Vec3 on = (inner.mesh.vertices[i] + inner.mesh.vertices[j] + inner.mesh.vertices[k]) / 3;
     const Vec3 below = on - 2 * tolerance * inner.mesh.normals[t];
     if (!near(on) && !near(below)) continue;
-    // Where the body is thinner than that, below is outside again: then the surface itself must do.
+    // Where the body is thinner than that, the point below is outside again: then a point of the surface
+    // itself is tested.
     const bool thick = inner.mesh.solid && windings(inner, below) > 0.5;
     if (inside(thick ? below : on)) return true;
   }

@@ -12,8 +12,8 @@ double winding_number(const FeatureMesh& mesh, const Vec3& point);
 
 // Whether a part of one model lies inside the other by more than `tolerance` (m), though their surfaces may
 // be apart. One point of each component of either model is tested, two tolerances below the component's own
-// surface: so what only rests on the other, flush or in a corner, is outside. The test casts a ray through the
-// hierarchy, and takes a microsecond or two for 70,000 triangles.
+// surface, so that a part that only rests on the other, flush or in a corner, counts as outside. The test
+// casts a ray through the hierarchy, and takes a microsecond or two for 70,000 triangles.
 bool one_inside_other(const Model& a, const Model& b, const ca::PairPose& pose, double tolerance);
 
 }  // namespace fc::hulls

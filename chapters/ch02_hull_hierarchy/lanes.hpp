@@ -37,8 +37,8 @@ inline Lanes abs(Lanes x) {
   return (Lanes)((LaneMask)x & 0x7fffffff);
 }
 
-// Four vectors. Plain sums of products, in this order: what the making of boxes computes with floats, their
-// reading computes too.
+// Four vectors. Plain sums of products, in this order: code that builds boxes with floats and code that reads
+// them get the same values.
 struct Lanes3 {
   Lanes x, y, z;
 };

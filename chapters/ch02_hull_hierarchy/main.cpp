@@ -11,7 +11,7 @@ namespace {
 
 using namespace fc;
 
-// The hulls of the upper levels of a shape's hierarchy, to be looked at.
+// Adds the hulls of the upper levels of a shape's hierarchy to the picture.
 void record_levels(MotionRecording& motion, int shape, const hulls::HullModel& model) {
   constexpr std::size_t kMostHulls = 64;  // of a level: more are too many to see, and to store
   std::vector<int> level{0};
@@ -26,11 +26,12 @@ void record_levels(MotionRecording& motion, int shape, const hulls::HullModel& m
   }
 }
 
-// Makes a model ready for the clear search, or says what it cannot do.
+// Makes a model ready for the clear search, or refuses it.
 void prepare_clear(hulls::Model& model, const Shape& shape, const hulls::clear::Pieces& pieces) {
   if (model.curved() || !model.parts.empty())
-    throw InputError("shape " + shape.name +
-                     ": the clear search knows meshes and hulls of points; run without --clear and --mine");
+    throw InputError(
+        "shape " + shape.name +
+        ": the clear search handles only meshes and hulls of points; run without --clear and --mine");
   hulls::add_hulls(model, pieces);
 }
 
@@ -64,7 +65,7 @@ int run(const Scene& scene, const RunContext& context, Summary& summary, const h
       context, summary,
       [&](MotionRecording& motion) {  // of a single query
         for (std::size_t i = 0; i < models.size(); ++i) {
-          if (models[i].curved() || !models[i].parts.empty()) continue;  // no hulls of points to look at
+          if (models[i].curved() || !models[i].parts.empty()) continue;  // there are no hulls of points
           if (!models[i].hulls) hulls::add_hulls(models[i], {});
           const hulls::HullModel& hulls = *models[i].hulls;
           record_levels(motion, static_cast<int>(i), hulls);

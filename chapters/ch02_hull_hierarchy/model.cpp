@@ -6,7 +6,7 @@
 namespace fc::hulls {
 namespace {
 
-constexpr std::size_t kLookAtAll = 16;  // points: of so few all are looked at
+constexpr std::size_t kLookAtAll = 16;  // up to this many points a query looks at all of them
 
 std::vector<int> one_triangle_per_component(const FeatureMesh& mesh) {
   std::vector<int> parent(mesh.vertices.size());
@@ -29,7 +29,7 @@ std::vector<int> one_triangle_per_component(const FeatureMesh& mesh) {
   return triangles;
 }
 
-// Points whose convex hull holds a convex model, rounding and disks included.
+// Points whose convex hull contains a convex model, rounding and disks included.
 std::vector<Vec3> points_around(const Model& model) {
   std::vector<Vec3> points;
   const Vec3 u = model.axis.unitOrthogonal(), v = model.axis.cross(u);
@@ -43,8 +43,8 @@ std::vector<Vec3> points_around(const Model& model) {
   return points;
 }
 
-// A name for each feature of the parts, one part after another: as many as it has vertices, edges or faces,
-// whichever are the most, and three for a cylinder's faces.
+// The first feature number of each part, one part after another. A part has as many numbers as vertices,
+// edges or faces, whichever are the most, and at least three, for a cylinder's faces.
 std::vector<int> names_of(const std::vector<Model>& parts) {
   std::vector<int> first{0};
   for (const Model& part : parts)

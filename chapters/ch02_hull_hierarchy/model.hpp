@@ -18,10 +18,10 @@ struct Model {
   BoxTree boxes;
   double radius = 0;   // m, rounding; of a compound 0: its parts have their own
   double reach = 0;    // m, of the core about the centre of mass; of a compound with the parts' rounding
-  bool filled = true;  // convex, or of convex parts: the hulls of the leaves are the solid. false: solid only
-                       // by its surface's inside, or not at all
+  bool filled = true;  // convex, or of convex parts: the hulls of the leaves are the solid. false: a mesh,
+                       // whose inside is that of its surface, if it has one
   std::vector<double> disks;    // m, of a cylinder or cone: see fc::Shape
-  Vec3 axis = Vec3::UnitZ();    // that they lie across
+  Vec3 axis = Vec3::UnitZ();    // unit: the disks lie across it
   std::vector<Model> parts;     // of a compound, about the whole's centre of mass and along its axes
   std::vector<int> first_name;  // of a compound: a part's features are numbered from here on
   std::vector<int>
@@ -41,7 +41,7 @@ struct Model {
   }
   Vec3 middle = Vec3::Zero();  // m, of the whole core
 
-  // The whole model as one convex shape: good for its reach and radius.
+  // The whole model as one convex shape; valid for its reach and radius.
   ca::Convex whole() const { return {mesh.vertices, radius, reach, middle, disks, nullptr, axis}; }
 };
 

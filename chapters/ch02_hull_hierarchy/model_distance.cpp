@@ -75,8 +75,8 @@ ModelDistance model_distance(const Model& a, const Model& b, const ca::PairPose&
     result.lower = pair.gjk.lower;
     if (pair.gjk.lower <= cutoff) result.nearest = pair;
   };
-  // Straight down to two leaves that are near each other: with their distance most pairs never enter the
-  // queue.
+  // First go straight down to two leaves that are near each other: given their distance, most pairs never
+  // enter the queue.
   NodePair down = queue.front();
   while (!leaves(a, b, down)) {
     NodePair nearest{std::numeric_limits<double>::infinity(), Vec3f::UnitX(), 0, 0};
@@ -104,7 +104,7 @@ ModelDistance model_distance(const Model& a, const Model& b, const ca::PairPose&
     }
     look(top);
   }
-  // What was never opened is no nearer than the queue's first, nor than the cutoff.
+  // A pair that was never opened is no nearer than the queue's first, or than the cutoff.
   if (!queue.empty()) result.lower = std::min(result.lower, queue.front().lower);
   result.lower = std::min(result.lower, cutoff);
   return result;

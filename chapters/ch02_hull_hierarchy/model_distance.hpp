@@ -8,7 +8,7 @@
 
 namespace fc::hulls {
 
-// Two leaves, with what GJK knows of them.
+// Two leaves, with GJK's result for them.
 struct LeafPair {
   int a = -1, b = -1;  // leaves
   ca::GjkResult
@@ -23,11 +23,11 @@ struct ModelDistance {
   std::int64_t node_pairs = 0, leaf_pairs = 0;  // that were looked at
 };
 
-// Distance of the surfaces, best first: the pair of nodes with the smallest lower bound is opened next, and
-// what cannot come nearer than the nearest witness points is never opened. `tolerance` (m) as for
-// leaf_distance. Above `cutoff` (m) only lower >= cutoff is promised, and above the tolerance only lower >=
-// share * upper (1: as exact as it gets): far apart, a rough answer takes a fraction of the time. A solid
-// inside another is not noticed here, but by inside.hpp.
+// Distance of the surfaces, best first: the pair of nodes with the smallest lower bound is opened next, and a
+// pair that cannot come nearer than the nearest witness points is never opened. `tolerance` (m) as for
+// leaf_distance. Above `cutoff` (m) only lower >= cutoff is guaranteed, and above the tolerance only lower >=
+// share * upper (1: as exact as possible): far apart, a rough answer takes a fraction of the time. A solid
+// inside another is not noticed here; inside.hpp does that.
 ModelDistance model_distance(const Model& a, const Model& b, const ca::PairPose& pose, double tolerance,
                              double cutoff = std::numeric_limits<double>::infinity(), double share = 1);
 

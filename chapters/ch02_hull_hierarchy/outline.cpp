@@ -7,7 +7,7 @@ namespace fc::hulls {
 namespace {
 
 constexpr double kNearlyFlat = 0.1;   // sine of an angle
-constexpr double kStraightOn = 1e-9;  // sine of an angle: nearer to the axis a direction has no side
+constexpr double kStraightOn = 1e-9;  // sine of an angle: a direction nearer to the axis faces no side
 
 void add_rim(Outline& outline, const Vec3& middle, double radius, const Vec3& lowest, const Vec3& normal) {
   const Vec3 next = normal.cross(lowest);

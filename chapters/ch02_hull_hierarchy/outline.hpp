@@ -12,7 +12,7 @@ namespace fc::hulls {
 // the apex). All of it lies on the true surface.
 struct Outline {
   static constexpr int kRim =
-      8;  // a cap is shown by this number of points on its rim, the farthest along the direction first
+      8;  // number of points on the rim that stand for a cap, the farthest along the direction first
   std::array<Vec3, kRim> corners;  // m, shape axes; of a cap anticlockwise as seen from outside
   int count = 0;                   // kRim, 2 or 1
   Vec3 normal = Vec3::UnitZ();     // unit, outward, of the cap or of the side along its line; not of a point
@@ -22,8 +22,8 @@ struct Outline {
   int id = 0;
 };
 
-// A cap, or the side, counts where its normal is within a tenth (sine of the angle) of the direction; beyond
-// it no more than one of its points can be in contact. `direction`: unit, shape axes.
+// A cap, or the side, counts if its normal is within a tenth (sine of the angle) of the direction; beyond
+// that, at most one of its points can be in contact. `direction`: unit, shape axes.
 Outline outline_of(const Model& curved, const Vec3& direction);
 
 }  // namespace fc::hulls

@@ -14,7 +14,8 @@ using ca::Long;
 using ca::LongVec;
 
 constexpr int kMostHoles = 10;
-// Of a point's coordinates in a box, as a part of the model's reach; boxes are built 1e-15 of it larger.
+// The rounding of a point's coordinates in a box, as a share of the model's reach; boxes are built 1e-15 of
+// it larger.
 constexpr Long kBoxRounding = 64 * LDBL_EPSILON;
 constexpr Long kRoundedToc = 1e-15L;  // toc is a fraction of the interval in queries.csv: two roundings
 
@@ -91,7 +92,7 @@ struct Side {
     }
     return result;
   }
-  // A few points that have the node's leaves between them.
+  // A few points whose hull contains the node's leaves.
   const ca::ReplayShape& simple(NodeId node) {
     if (leaf(node)) return exact(node);
     if (const auto found = corners.find(node); found != corners.end()) return found->second;
@@ -138,7 +139,7 @@ struct Replay {
     rows_of[{i, j}].push_back(k);
   }
 
-  // Whether the block is clear from `since`, until which its parents have proved it, until toc.
+  // Checks that the block is clear from `since`, up to which its parents have proved it, until toc.
   void cover(NodeId i, NodeId j, Long since) {
     if (holes >= kMostHoles) return;
     int last = -1;
@@ -168,7 +169,7 @@ struct Replay {
                              static_cast<double>(toc))});
       return;
     }
-    // Any parts would do; these are the ones that the search has.
+    // Any partition would do; this is the search's.
     const bool open_a = b.leaf(j) || (!a.leaf(i) && query.a.boxes.radius(i) >= query.b.boxes.radius(j));
     const BoxTree& tree = open_a ? query.a.boxes : query.b.boxes;
     const int below = tree.child(open_a ? i : j);
@@ -232,7 +233,7 @@ std::vector<ca::Refusal> replay(const PairQuery& query, const ca::ReplayAnswer& 
   if (!query.motion_a.steady() || !query.motion_b.steady())
     return {{-1, "a body turns freely, or feels drag: only constant spin and acceleration can be replayed"}};
   // Where two bodies touch at the start, other pairs of their nodes have been advanced all the same: their
-  // rows prove nothing of the answer.
+  // rows prove nothing about the answer.
   const bool at_start =
       answer.status == ca::Status::touching_at_start || answer.status == ca::Status::penetrating_at_start;
   if (const std::string what = ca::replay_answer(query.interval, answer, !at_start && !rows.empty());

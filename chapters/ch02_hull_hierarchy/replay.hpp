@@ -1,6 +1,5 @@
-// Checks certificates of hierarchies: does every row claim what is true of its leaves, and do the rows
-// together prove every pair of leaves clear? In long double, without GJK and without the motion bounds, like
-// chapter 1's.
+// Checks certificates of hierarchies: is every row's claim true of its leaves, and do the rows together prove
+// every pair of leaves clear? In long double, without GJK and without the motion bounds, like chapter 1's.
 #pragma once
 
 #include "ch01_convex_advancement/replay.hpp"
@@ -21,11 +20,11 @@ struct PairQuery {
 };
 
 // Everything that is wrong with an answer and its certificate; row k is about blocks[k] (as many as rows). A
-// row is held against its boxes' corners, which have the leaves between them, and, if that does not show it,
-// against the leaves' own points. Then the blocks: what a block's rows prove from the time on that its
-// parents had reached must last until toc, or be taken up by its parts. Stops at the tenth block that does
-// not. Not checked: gap_lower and gap_upper at toc, and whether a start that is said to touch or to overlap
-// does (rows that stand beside such an answer must be true all the same).
+// row is checked against its boxes' corners, whose hull contains the leaves, and, if these do not prove it,
+// against the leaves' own points. Then the blocks: from the time that its parents had reached, a block's rows
+// must prove it clear until toc, or its parts must take over. Stops at the tenth block that fails. Not
+// checked: gap_lower and gap_upper at toc, and whether bodies reported as touching or overlapping at the
+// start do so (the rows of such an answer must be true all the same).
 std::vector<ca::Refusal> replay(const PairQuery& query, const ca::ReplayAnswer& answer,
                                 const std::vector<ca::CertificateRow>& rows,
                                 const std::vector<ca::LeafBlock>& blocks);

@@ -15,7 +15,7 @@ namespace {
 
 using namespace fc;
 
-// certificate_leaves.csv: of each query, the leaves that its rows are about, and what is wrong with their
+// certificate_leaves.csv, query by query: the leaves that its rows are about, and what is wrong with their
 // numbering.
 struct QueryBlocks {
   std::vector<ca::LeafBlock> blocks;
@@ -83,7 +83,7 @@ int main(int argc, char** argv) {
       "Checks the certificate of a run of chapter 2: that every row of certificate.csv is true of the "
       "leaves that certificate_leaves.csv names, and that the rows together prove every pair of triangles "
       "clear until what queries.csv says. It uses neither GJK nor the motion bounds, and computes in long "
-      "double. Each row that is refused is a line on standard error. Exit code 0: all is proved; 3: "
+      "double. Standard error has a line for each row that is refused. Exit code 0: all is proved; 3: "
       "something is not; 2: bad input.";
   program.example =
       "Example:\n"

@@ -12,7 +12,7 @@ constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
 
 constexpr int kMostLooks = 16;
 
-// One body as the plane sees it: along the direction n, towards the other body.
+// One body, seen along the direction n towards the other body.
 struct Side {
   Vec3 direction;  // n in the body's axes
   Vec3 turn;       // n x w in the body's axes: a point x moves with n.v + turn.x along n
@@ -27,7 +27,7 @@ struct Side {
     turn = rotation.transpose() * n.cross(spin_world);
     rate = turn.norm() + m.wander();
     double sweep2 = 0;
-    if (shape.table != nullptr)  // many points: the farthest one stands for all
+    if (shape.table != nullptr)  // many points: the farthest one represents all
       sweep2 = spin.squaredNorm() * shape.reach * shape.reach;
     else
       for (std::size_t i = 0; i < shape.points.size(); ++i) {
@@ -62,7 +62,7 @@ SafeStep ball_step(const ca::Motion& a, const ca::Convex& node_a, double radius_
   const double fall = n.dot(ca::relative_acceleration(a, b, t));
   const double linear = n.dot(velocity);
 
-  // About the nodes' own middles.
+  // Relative to the nodes' own middles.
   const double noise = kRounding * (velocity.norm() + rate_a * node_a.reach + rate_b * node_b.reach +
                                     (a.free ? pose.turned_a * a.spin_bound() * node_a.reach : 0) +
                                     (b.free ? pose.turned_b * b.spin_bound() * node_b.reach : 0));
@@ -91,7 +91,7 @@ SafeStep points_step(const ca::Motion& a, const ca::Convex& shape_a, const ca::M
   const double noise = kRounding * (velocity.norm() + side_a.noise + side_b.noise);
   const double straight = n.dot(velocity) + noise, remaining = end - t;
 
-  // Ahead now: the supports, which the room is measured from.
+  // The points that are ahead now: the supports, from which the room is measured.
   Vec3 x = ca::support(shape_a, side_a.direction).point, y = ca::support(shape_b, side_b.direction).point;
   const double supports = side_a.direction.dot(x) + side_b.direction.dot(y);
   SafeStep step;

@@ -25,15 +25,15 @@ SafeStep ball_step(const ca::Motion& a, const ca::Convex& node_a, double radius_
 double whole_step(const ca::Motion& a, const ca::Convex& shape_a, const ca::Motion& b,
                   const ca::Convex& shape_b, const Vec3& n, double t, double end, double room);
 
-// In all of them, of a spin that changes (torque-free, or decaying) |n x w| stands for the most that it can
-// be from now on, |n x w(t)| + wander, and a point at r bends by |dw/dt| |r| more: ca::Motion has both.
+// In all three, if the spin changes (torque-free, or decaying), |n x w| means the most that it can be from
+// now on, |n x w(t)| + wander, and a point at r accelerates by |dw/dt| |r| more; ca::Motion has both.
 
-// The points' own velocities: along n (unit, world, A to B) the pair has `room` (m) more than it must keep,
-// at time t of a motion that goes on until `end` (s). A point x of a body moves along n by h (n.v + (n x
-// w).x), and at most h^2/2 |n x w| |w x x| more, so after h seconds the one with the largest (n + h n x w).x
-// is ahead, up to that. What is left of the room is concave in h: if some is left after h seconds, it was so
-// in between. Exact in each point's velocity, so a pair that parts, or slides along a face, is not held up.
-// Cost: two or three passes over the points.
+// Uses the points' own velocities. Along n (unit, world, A to B) the pair has `room` (m) more than it must
+// keep, at time t of a motion that goes on until `end` (s). A point x of a body moves along n by h (n.v + (n
+// x w).x), and at most h^2/2 |n x w| |w x x| more, so after h seconds the one with the largest (n + h n x
+// w).x is ahead, up to that. The remaining room is concave in h: if some is left after h seconds, some is
+// left at every time in between. Exact in each point's velocity, so a pair that parts, or slides along a
+// face, gets long steps. Cost: two or three passes over the points.
 SafeStep points_step(const ca::Motion& a, const ca::Convex& shape_a, const ca::Motion& b,
                      const ca::Convex& shape_b, const ca::PairPose& pose, const Vec3& n, double t, double end,
                      double room);

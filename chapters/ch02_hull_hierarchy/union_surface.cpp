@@ -3,8 +3,8 @@
 namespace fc::hulls {
 namespace {
 
-constexpr double kOn = 1e-9;     // of the compound's reach: a point so near to a part is on it
-constexpr double kLeads = 1e-9;  // of the compound's reach: what a part must reach farther along the normal
+constexpr double kOn = 1e-9;     // of the compound's reach: a point this near to a part is on it
+constexpr double kLeads = 1e-9;  // of the compound's reach: a part must reach this much farther along n
 
 bool is_on(const Model& part, const Vec3& point, double near) {
   const ca::Convex alone{std::span(&point, 1), 0, point.norm(), point};

@@ -6,8 +6,8 @@
 namespace fc::hulls {
 
 // Whether a compound has this outward normal (unit) at a point of the surface of one of its parts. It has, if no other
-// part that holds the point reaches farther along the normal. Else one part's edge is covered by another part there,
-// and no body outside can touch it. Point and normal in shape axes.
+// part that contains the point reaches farther along the normal. Otherwise that other part covers the point, and no
+// body outside can touch it. Point and normal in shape axes.
 bool shows(const Model& compound, int part, const Vec3& point, const Vec3& outward);
 
 }  // namespace fc::hulls

@@ -1,5 +1,4 @@
-// What the solvers share at their end: from the set of pushing rows to the best z that has it, and to a
-// verdict.
+// The solvers' common last steps: from the set of pushing rows to the best z with that set, and to a verdict.
 #pragma once
 
 #include <vector>
@@ -12,7 +11,7 @@ namespace fc::lcp {
 // becomes `limit` if the result is not acceptable, or z not finite (then it is zero).
 LcpResult judged(const Lcp& problem, VecX z, Status status);
 
-// The result of a method that did not begin: z = 0.
+// The result of a method that refused the problem: z = 0.
 LcpResult refused(const Lcp& problem, Status status);
 
 // Solves the rows of a standard problem's `active` set for w = 0, all other z being 0, by an LU or, if it is

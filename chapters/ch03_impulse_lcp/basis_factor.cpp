@@ -7,8 +7,8 @@ namespace {
 
 // Up to this size plain loops are faster than a library's kernels, which pay off on long columns.
 constexpr int kSmall = 24;
-// Columns that are factored at a time: the block of L that they work on, kPanel by kPanel, fits the first
-// cache.
+// The number of columns factored at a time: the block of L that they use, kPanel by kPanel, fits the
+// first-level cache.
 constexpr int kPanel = 48;
 
 template <class Real>
@@ -142,7 +142,7 @@ void BasisFactor<Real>::leave(int position) {
   std::copy(D_.data() + position + 1, D_.data() + k, D_.data() + position);
   rows_.erase(rows_.begin() + position);
 
-  // Give the loss back, column by column (Bennett 1965): L D U + d l u'.
+  // Add it again, column by column (Bennett 1965): L D U + d l u'.
   for (int j = position; j < left; ++j) {
     const Real lj = lower_[j], uj = symmetric() ? lj : upper_[j];
     const Real old = D_[j];
@@ -221,7 +221,7 @@ void BasisFactor<Real>::factor_symmetric(Real threshold) {
     rest.template triangularView<Eigen::Lower>() -= product * under.transpose();
   }
 
-  // Close the gaps that dropped rows have left.
+  // Close the gaps left by dropped rows.
   if (std::find(dropped_.begin(), dropped_.end(), 1) == dropped_.end()) return;
   int kept = 0;
   for (int q = 0; q < k; ++q) {

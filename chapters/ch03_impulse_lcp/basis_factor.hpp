@@ -9,17 +9,16 @@
 namespace fc::lcp {
 
 // A_CC = L D U for a growing and shrinking list C of rows (the basis, in the order of entry); L is unit lower
-// and U unit upper triangular, D diagonal. For a symmetric A, U = L' and is not stored. No row is exchanged
-// for the factor's sake: the matrices of this chapter have positive principal minors, and with them every D,
-// in any order of the rows.
+// and U unit upper triangular, D diagonal. For a symmetric A, U = L' and is not stored. Rows are never
+// exchanged for stability: the matrices of this chapter have positive principal minors, so every D is
+// positive in any order of the rows.
 //   factor: all rows at once, by blocks (for symmetric A), O(k^3 / 3) multiplications and additions together;
 //   enter:  one triangular solve gives the new row of L, O(k^2);
 //   leave:  the row is cut out, and the block of L below it takes a rank-one update by the column that was
 //   cut, O(k^2).
 //           For a symmetric A it adds a positive term: it cannot fail, and is as stable as a new
 //           factorisation.
-// There is no square root. Holds a pointer to A, which must outlive it. Allocates only when it meets a larger
-// n.
+// Takes no square roots. Holds a pointer to A, which must outlive it. Allocates only when n grows.
 template <class Real>
 class BasisFactor {
  public:

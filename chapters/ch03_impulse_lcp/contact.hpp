@@ -1,4 +1,4 @@
-// A contact as chapter 3 sees it: one point at which two bodies touch, and the direction in which they push.
+// A contact: one point at which two bodies touch, and the direction in which they push.
 #pragma once
 
 #include <span>
@@ -8,16 +8,15 @@
 namespace fc::lcp {
 
 // Two bodies touch at one common point. The impulse j >= 0 (N s) acts there along +normal on B and along
-// -normal on A; one point for both, or a pair of forces with a lever arm (the gap) would change the total
-// angular momentum.
+// -normal on A. Two points a gap apart would make the pair of impulses change the total angular momentum.
 struct Contact {
   int body_a = 0, body_b = 0;  // indices into the bodies; not equal
   Vec3 point = Vec3::Zero();   // m, world
   Vec3 normal = Vec3::Zero();  // unit, world, from A to B
   double gap = 0;              // m, distance of the two surfaces; reported, never used by the impact law
   double restitution = 0;      // Newton's epsilon, in [0, 1]
-  // False: the normal passes through that body's centre of mass, as a ball's does. The impulse has no lever
-  // arm on it, and its spin no part in the contact's velocity: nothing angular is computed.
+  // False: the normal passes through that body's centre of mass, as for a ball. The impulse then has no lever
+  // arm, and the spin no part in the contact's velocity: nothing angular is computed.
   bool turns_a = true, turns_b = true;
 };
 
@@ -30,7 +29,7 @@ inline Vec3 relative_velocity(std::span<const RigidBody> bodies, const Contact& 
   return velocity_b - velocity_a;
 }
 
-// Its part along the normal, m/s: negative while the bodies approach.
+// The component of that velocity along the normal, m/s: negative while the bodies approach.
 inline double contact_velocity(std::span<const RigidBody> bodies, const Contact& contact) {
   return contact.normal.dot(relative_velocity(bodies, contact));
 }

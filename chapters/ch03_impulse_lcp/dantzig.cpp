@@ -9,11 +9,11 @@
 namespace fc::lcp {
 namespace {
 
-// A Schur complement of nearly zero is either what round-off left of zero or the truth, and taking one for
-// the other makes impulses huge or leaves a row violated. No threshold is right for all matrices, but the
-// order of the rows decides which nearly dependent rows meet, a longer arithmetic tells more of them apart,
-// and a coarser threshold keeps more of them out. So a solve that fails, or whose residual is above
-// kGoodResidual, is done again, in this order, and the best result counts.
+// A Schur complement near zero is either a zero with round-off or a true small value; to confuse the two
+// makes impulses huge, or leaves a row violated. No threshold is right for all matrices. But the order of the
+// rows decides which nearly dependent rows meet, a longer arithmetic tells more of them apart, and a coarser
+// threshold keeps more of them out. So a solve that fails, or whose residual is above kGoodResidual, is
+// repeated with these settings, in this order, and the best result counts.
 struct Trial {
   detail::Attempt attempt;
   bool extended;  // in long double
@@ -31,13 +31,13 @@ constexpr std::array<Trial, 12> kTrials = {{{{1, true, false}, false},
                                             {{1e6, false, false}, false},
                                             {{1e6, false, true}, false}}};
 constexpr double kGoodResidual = 1e-12;
-// Above this residual, or this error, a solved basis is refined, so often at most, as long as it becomes
-// better. Plain double arithmetic gives a residual of about epsilon sqrt(n), and |A||z| / |b| times that is
-// the error.
+// Above this residual, or this error, a solved basis is refined as long as it improves, at most kRefinements
+// times. Plain double arithmetic gives a residual of about epsilon sqrt(n); the error is |A||z| / |b| times
+// that.
 constexpr double kRefined = 4e-15;
 constexpr double kRefinedError = 2e-14;
 constexpr int kRefinements = 2;
-// So many steps of z, each with its round-off, are made good by one solve of the basis.
+// After this many steps of z, each with its round-off, one solve of the basis restores its digits.
 constexpr int kSteps = 16;
 
 }  // namespace

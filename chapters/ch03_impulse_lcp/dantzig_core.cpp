@@ -6,12 +6,12 @@
 namespace fc::lcp::detail {
 namespace {
 
-// |A_ij - A_ji|, against its row's and column's diagonal, that still counts as symmetric: text files carry
-// some ten digits, and the final check is made with A as given.
+// |A_ij - A_ji|, relative to the two diagonal entries, that still counts as symmetric: text files carry about
+// ten digits, and the final check uses A as given.
 constexpr double kAsymmetry = 1e-9;
-// How often the finished basis is solved afresh and rows that round-off has left violated are driven again.
+// How often the finished basis is solved again, and rows that round-off has left violated are driven again.
 constexpr int kPasses = 8;
-// From this many rows on a basis is predicted even without a guess: fewer are sooner done one by one.
+// From this many rows on a basis is predicted even without a guess: fewer are done faster one by one.
 constexpr int kPredictFrom = 20;
 // Rows and columns of a block in which A and A' are read together.
 constexpr int kBlock = 16;
@@ -28,7 +28,7 @@ double root_of_two(double x) {
 template <class Real>
 void DantzigCore<Real>::reserve(int n) {
   if (n <= capacity_) return;
-  // A column that begins a multiple of 4096 bytes after the last one would share its place in the cache.
+  // Columns a multiple of 4096 bytes apart would compete for the same place in the cache.
   capacity_ = n % 64 == 0 ? n + 8 : n;
   for (Vector* v : {&scale_, &inverse_scale_, &b_, &lower_, &upper_, &z_, &w_, &dz_, &dw_, &basis_})
     v->resize(capacity_);
@@ -121,7 +121,7 @@ void DantzigCore<Real>::set_w() {
   }
 }
 
-// Takes from the basis's w what round-off has left there, so that its z are as good as a solve afresh.
+// Removes what round-off has left in the basis's w, so that its z are as good as after a new solve.
 template <class Real>
 void DantzigCore<Real>::solve_basis() {
   first_ = 0;
@@ -137,7 +137,7 @@ void DantzigCore<Real>::solve_basis() {
 
 template <class Real>
 void DantzigCore<Real>::impulses(VecX& z) const {
-  // An impulse that is only round-off is none: removing it changes no velocity by more than round-off.
+  // An impulse that is only round-off is set to zero: that changes no velocity by more than round-off.
   const Real nothing = z_tolerance();
   z.resize(n_);
   for (int i = 0; i < n_; ++i) {
@@ -194,7 +194,7 @@ Status DantzigCore<Real>::drive_rows(bool reversed, bool& changed) {
     const int d = reversed ? n_ - 1 - k : k;
     if (place(d) == Place::basis) continue;
     if (place(d) == Place::waiting) {
-      if (extent_ < n_) {  // it is met for the first time
+      if (extent_ < n_) {  // the drives reach it for the first time
         ++extent_;
         if (reversed) --first_;
       }

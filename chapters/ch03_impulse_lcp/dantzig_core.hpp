@@ -1,4 +1,4 @@
-// Dantzig's method from the inside: one attempt at one problem, its state and its steps. Users include
+// The inside of Dantzig's method: one attempt at one problem, its state and its steps. Users include
 // dantzig.hpp.
 #pragma once
 
@@ -11,10 +11,10 @@
 namespace fc::lcp::detail {
 
 // All tolerances of this solver are ratios: rows are scaled so that the diagonal of A lies in [1/2, 2]. These
-// two, in units of epsilon, times sqrt(n + 16) and n + 4: round-off grows with the root of the terms of a sum
-// where their signs are random, and with their number at worst. The first decides what counts as zero among
-// z, w and slopes, so it bounds the residual; the second decides which rows count as dependent, where a worst
-// case costs a whole answer.
+// two are in units of epsilon, times sqrt(n + 16) and n + 4: round-off grows with the root of the number of
+// terms where their signs are random, and with that number at worst. The first decides what counts as zero
+// among z, w and slopes, so it bounds the residual. The second decides which rows count as dependent; there a
+// worst case costs the whole answer.
 constexpr double kRoundingUnits = 4;
 constexpr double kRankUnits = 16;
 
@@ -34,19 +34,20 @@ enum class Drive { done, no_solution, limit, unsuited };
 template <class Real>
 class DantzigCore {
  public:
-  // Scales and copies the problem, which must live until the last solve(). False if the matrix cannot be one
-  // that the method is made for, as far as single rows tell.
+  // Scales and copies the problem, which must live until the last solve(). False if single rows show that the
+  // matrix is outside the method's class.
   bool load(const Lcp& problem);
 
-  // start: a guess of z, or null. Returns `solved` if all rows are complementary as far as the method knows.
+  // start: a guess of z, or null. Returns `solved` if all rows are complementary, by the method's own values.
   Status solve(const Attempt& attempt, const VecX* start, int max_pivots);
   // n; within the bounds exactly.
   void impulses(VecX& z) const;
   const VecX& certificate() const { return certificate_; }  // of the last solve, if it ended with no_solution
-  // Solves the basis afresh, and drives again what round-off has left violated, until nothing is.
+  // Solves the basis again, and drives the rows that round-off has left violated, until there are none.
   Status improve();
-  // One step of iterative refinement of the basis: its residual w is taken from the matrix as given in
-  // extended precision. Afterwards solve's claim stands only if nothing left its bounds: returns that.
+  // One step of iterative refinement of the basis: its residual w is computed from the matrix as given, in
+  // extended precision. Returns whether everything stayed within its bounds: only then does the claim of
+  // solve() still hold.
   bool refine();
   int pivots() const { return pivots_; }
   // Exchanges since z was last found from the factor, not by steps.

@@ -7,8 +7,8 @@
 namespace fc::lcp::detail {
 namespace {
 
-// A Schur complement below minus this proves an eigenvalue below zero that no round-off explains: `unsuited`
-// if the row cannot be driven without it.
+// A Schur complement below minus this proves a negative eigenvalue that no round-off explains: `unsuited`, if
+// nothing stops that row's drive.
 constexpr double kIndefinite = 1e-6;
 
 }  // namespace
@@ -31,7 +31,7 @@ void DantzigCore<Real>::set_direction(int d, Real sign) {
   for (int i = first_; i < first_ + extent_; ++i) {
     if (i != d && (place(i) == Place::at_lower || place(i) == Place::at_upper)) outside_.push_back(i);
   }
-  // By rows or by columns, whichever are fewer.
+  // By rows or by columns, whichever is fewer.
   if (static_cast<int>(outside_.size()) <= k) {
     const Matrix& rows = symmetric_ ? A_ : transposed_;
     for (const int i : outside_) dw_[i] = rows.col(i).segment(first_, extent_).dot(extent(dz_));
@@ -43,8 +43,8 @@ void DantzigCore<Real>::set_direction(int d, Real sign) {
   }
 }
 
-// Calls visit(row, position in the basis or -1, distance to what stops it, speed, slack of the distance) for
-// each row that the direction moves towards a place where it must be exchanged.
+// For each row that the direction moves towards a place where it must be exchanged, calls visit(row, position
+// in the basis or -1, distance to that place, speed, slack of the distance).
 template <class Real>
 template <class Visit>
 void DantzigCore<Real>::each_candidate(Visit&& visit) const {
@@ -62,10 +62,10 @@ void DantzigCore<Real>::each_candidate(Visit&& visit) const {
   }
 }
 
-// The row that stops the drive of d first. Ratio test in two passes (Harris 1973): the shortest step with
-// every bound relaxed by round-off, then, among the rows that stop within it, d itself (on a tie it must
+// The row that stops the drive of d first. A ratio test in two passes (Harris 1973): first the shortest step
+// with every bound relaxed by round-off; then, among the rows that stop within it, d itself (on a tie it must
 // enter the basis, or a solvable singular problem looks unsolvable), or else the row with the steepest slope,
-// whose exchange is the best conditioned. Many zero steps in a row could be a cycle of ties: then the
+// whose exchange is the best conditioned. Many successive zero steps could be a cycle of ties: then the
 // smallest index decides, which cannot cycle (Chang 1979).
 template <class Real>
 typename DantzigCore<Real>::Blocking DantzigCore<Real>::blocking_row(int d, Real schur) {
@@ -127,9 +127,9 @@ bool DantzigCore<Real>::proves_infeasible(int d) {
   return certificate_.size() > 0;
 }
 
-// Row d has reached w_d = 0 to within round-off without being the one that blocked: puts it where it belongs.
-// If it depends on the basis, the impulse is moved along the null direction, which changes no velocity, until
-// d or a row of the basis is at a bound.
+// Row d has reached w_d = 0 to within round-off, but another row blocked the drive: gives d its place. If it
+// depends on the basis, the impulse is moved along the null direction, which changes no velocity, until d or
+// a row of the basis is at a bound.
 template <class Real>
 void DantzigCore<Real>::settle(int d) {
   place(d) = Place::waiting;
@@ -199,8 +199,8 @@ Drive DantzigCore<Real>::drive(int d) {
       return Drive::done;
     }
     if (blocking.position < 0) {
-      // In exact arithmetic a row that blocks never depends on the basis. In ours it may: then its w is
-      // falling by round-off only, and it is left to the next pass.
+      // In exact arithmetic a blocking row never depends on the basis. In floating point it may: then its w
+      // falls by round-off only, and it is left to the next pass.
       if (factor_.schur(blocking.row) <= rank_rounding_) {
         barred_[static_cast<std::size_t>(blocking.row)] = 1;
         continue;

@@ -1,4 +1,4 @@
-// A basis guessed at once: where Dantzig's method begins if somebody has a guess, or if there are many rows.
+// A basis predicted as a whole: where Dantzig's method begins if there is a guess, or if there are many rows.
 #include <algorithm>
 #include <cmath>
 
@@ -7,23 +7,21 @@
 namespace fc::lcp::detail {
 namespace {
 
-// Exchanges of all violated rows at once that may fail to leave fewer of them before the method goes on row
-// by row.
+// How many exchanges of all violated rows at once may fail to reduce their number before the method goes on
+// row by row.
 constexpr int kPatience = 3;
-// Rows that are exchanged one by one cost less than a new factorisation if there are fewer than this share of
-// the basis.
+// Exchanging rows one by one is cheaper than a new factorisation for fewer than 1 / kShare of the basis.
 constexpr int kShare = 6;
-// If more rows depend on the basis than this share of it, which of them push is for the drives to find:
-// exchanged together they only take turns.
+// If the rows that depend on the basis are more than 1 / kRedundant of it, the drives have to find which of
+// them push: exchanged together, they only take turns.
 constexpr int kRedundant = 4;
 
 }  // namespace
 
 // Block principal pivoting (Kostreva 1978; Júdice and Pires 1994): factor the guessed basis, find z and w,
-// and exchange every row that is violated, as long as they become fewer. It need not end, and proves nothing;
-// but what it leaves, less the rows whose z is out of bounds, is a state that Dantzig's method could have
-// reached: the basis has w = 0 and z within the bounds, and other rows are done if w allows it, and wait if
-// not.
+// and exchange every row that is violated, as long as they become fewer. It need not end, and proves nothing.
+// But its result, less the rows whose z is out of bounds, is a state that Dantzig's method could have
+// reached: the basis has w = 0 and z within the bounds; other rows are done if w allows it, and else wait.
 template <class Real>
 void DantzigCore<Real>::predict() {
   first_ = 0;
@@ -51,8 +49,8 @@ void DantzigCore<Real>::predict() {
   }
 }
 
-// Factors the rows that are to be in the basis, and puts each z at its bound, the basis's at 0. Rows that
-// depend on others wait: returns how many.
+// Factors the rows that are to be in the basis, and sets each z to its bound, the basis's to 0. Rows that
+// depend on others wait; returns their number.
 template <class Real>
 int DantzigCore<Real>::factor_basis() {
   wanted_.clear();
@@ -68,7 +66,7 @@ int DantzigCore<Real>::factor_basis() {
   return static_cast<int>(wanted_.size()) - factor_.size();
 }
 
-// The places of all rows, from a guess of z, or from what w asks for at z = 0. False, and none, if that is
+// Sets the places of all rows, from a guess of z, or from w at z = 0. False, and no places, if that takes
 // more exchanges than the limit allows.
 template <class Real>
 bool DantzigCore<Real>::guess(const VecX* start) {
@@ -91,7 +89,7 @@ bool DantzigCore<Real>::guess(const VecX* start) {
   return false;
 }
 
-// How many rows the present places are wrong for.
+// How many rows are violated in their present places.
 template <class Real>
 int DantzigCore<Real>::violations() const {
   const Real slack = z_tolerance();
@@ -100,7 +98,7 @@ int DantzigCore<Real>::violations() const {
   return count;
 }
 
-// Gives every violated row the other place, for factor_basis().
+// Moves every violated row to its other place, for factor_basis().
 template <class Real>
 void DantzigCore<Real>::replace_violated() {
   const Real slack = z_tolerance();
@@ -134,7 +132,7 @@ void DantzigCore<Real>::exchange_violated() {
   }
 }
 
-// Takes the rows whose z is out of its bounds out of the basis until there are none.
+// Removes rows whose z is out of its bounds from the basis, until there are none.
 template <class Real>
 void DantzigCore<Real>::drop_violated() {
   while (true) {

@@ -8,11 +8,11 @@
 namespace fc::lcp {
 namespace {
 
-// The largest deviation of |n|^2 from 1 that round-off of a normalised vector explains with ample room; a
-// normal that is off by more is a caller's mistake and would scale impulses silently.
+// The largest deviation of |n|^2 from 1, far above the round-off of a normalised vector. A normal that
+// deviates more is a caller's mistake, and would silently scale impulses.
 constexpr double kUnitNormal = 1e-9;
 
-// What a contact sees of one of its two bodies.
+// One of the two bodies of a contact.
 struct Side {
   int contact;       // the row
   double sign;       // +1 on B, -1 on A
@@ -40,7 +40,7 @@ void check_contact(const Contact& contact, std::size_t index, std::size_t bodies
   }
 }
 
-// Adds to A what the contacts of one moving body share through it.
+// Adds to A the coupling of all contacts of one moving body.
 void add_body(const RigidBody& body, const std::vector<Side>& sides, MatX& A) {
   for (std::size_t s = 0; s < sides.size(); ++s) {
     for (std::size_t t = 0; t <= s; ++t) {
@@ -70,7 +70,7 @@ ImpactProblem assemble(std::span<const RigidBody> bodies, std::span<const Contac
   const auto n = static_cast<Eigen::Index>(contacts.size());
   ImpactProblem problem{MatX::Zero(n, n), VecX(n), VecX(n)};
 
-  // Collect, for each body that can move, the contacts at which it takes part.
+  // Collect the contacts of each body that can move.
   std::vector<std::vector<Side>> sides(bodies.size());
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const Contact& contact = contacts[i];

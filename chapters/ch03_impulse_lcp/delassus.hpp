@@ -29,23 +29,22 @@ void check_contacts(std::span<const RigidBody> bodies, std::span<const Contact> 
 // restitution outside [0, 1], or a number that is not finite.
 ImpactProblem assemble(std::span<const RigidBody> bodies, std::span<const Contact> contacts);
 
-// The same matrix as an operator: A z = J M^-1 J' z, from right to left. J' z gathers the impulses of each
-// body, M^-1 makes velocities of them, and J looks at these at each contact. That costs O(n + bodies), where
-// the entries of a heap's matrix cost up to O(n^2): all that methods need which only multiply by A.
+// The same matrix as an operator: A z = J M^-1 J' z, from right to left. J' z sums up the impulses on each
+// body, M^-1 turns them into velocities, and J takes these to the contacts. That costs O(n + bodies), where
+// the matrix of a pile has up to O(n^2) entries, and suffices for methods that only multiply by A.
 class DelassusOperator {
  public:
   // Throws as assemble() does. Keeps nothing of the arguments.
   DelassusOperator(std::span<const RigidBody> bodies, std::span<const Contact> contacts);
 
   Eigen::Index size() const { return static_cast<Eigen::Index>(rows_.size()); }
-  // v := A z. z, v: n, N s and m/s; takes nothing from the heap if v has n entries.
+  // v := A z. z, v: n, N s and m/s; allocates nothing if v has n entries.
   void apply(const VecX& z, VecX& v);
   // A_ii, 1/kg.
   VecX diagonal() const;
 
  private:
-  // What a contact is for one of its bodies: its part of J's row, and of M^-1 J's column. Without the sign of
-  // A.
+  // One body's part of a contact's row of J, and of its column of M^-1 J'. Without the sign of A.
   struct Part {
     int body;          // -1: static
     Vec3 moves;        // the normal, along what the body is free to move

@@ -12,17 +12,17 @@
 namespace fc::lcp {
 namespace {
 
-// An approach slower than this, against the speeds that cancel in it, is round-off: some 4,500 units of it,
-// room for a solve with a badly conditioned matrix. Consequence: at 10 m/s two bodies may be left approaching
+// An approach slower than this, relative to the speeds that cancel in it, is round-off: about 4,500 epsilon,
+// which leaves room for a badly conditioned matrix. Consequence: at 10 m/s two bodies may be left approaching
 // at 1e-11 m/s, which takes a day to close a tolerance of 1e-6 m.
 constexpr double kApproachRounding = 1e-12;
-// The residual up to which a solve is used, and the same for the velocities that the bodies then have.
-// Dantzig's method gives about 1e-16; iterative solvers may be asked for this much. Consequence: a contact
-// may end up to this fraction of the speeds slower than the law says; anything still approaching faster than
+// The largest residual of a solve that is used, and the same for the velocities that the bodies then have.
+// Dantzig's method gives about 1e-16; iterative solvers can reach this. Consequence: a contact may end up to
+// this fraction of the speeds slower than the law says; anything still approaching faster than
 // kApproachRounding is solved again.
 constexpr double kResidual = 1e-10;
 
-// A body that takes part, as it was.
+// The former state of a body that takes part.
 struct Saved {
   std::size_t body;
   Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();
@@ -58,7 +58,7 @@ double kinetic_energy(std::span<const RigidBody> bodies, const std::vector<Saved
   return sum;
 }
 
-// The largest speed of a touching point, were nothing to cancel in it.
+// The largest speed of a touching point if nothing cancelled in it.
 double speed_scale(std::span<const RigidBody> bodies, std::span<const Contact> contacts) {
   double scale = 0;
   for (const Contact& contact : contacts) {
@@ -100,9 +100,9 @@ Status solve_once(std::span<RigidBody> bodies, std::span<const Contact> contacts
   }
   scale = std::max(scale, speed_scale(bodies, contacts));
 
-  // Believe the bodies, not the algebra: the velocities that they have now must keep the law. Where a heavy
-  // body rests on a light one, impulses of almost equal size cancel in the light one, and their round-off is
-  // left: another solve in the same instant removes it.
+  // Check the bodies, not the algebra: their velocities now must fulfil the law. Where a heavy body lies on a
+  // light one, impulses of almost equal size cancel in the light one, which leaves their round-off: another
+  // solve in the same instant removes it.
   const double cancelled = (problem.A.cwiseAbs() * lcp.z).maxCoeff();
   const double allowed = kResidual * scale + 8 * std::numeric_limits<double>::epsilon() * cancelled *
                                                  static_cast<double>(contacts.size());
@@ -177,9 +177,9 @@ ImpactResult resolve_impact(std::span<RigidBody> bodies, std::span<const Contact
   const std::vector<Saved> saved = save(bodies, contacts);
   const double energy_before = kinetic_energy(bodies, saved);
 
-  std::vector<Contact> law(contacts.begin(), contacts.end());  // with the restitutions in force
+  std::vector<Contact> law(contacts.begin(), contacts.end());  // with the restitutions of the present solve
   // Round-off is measured against the fastest speeds of the instant: where all of them cancel, as in a
-  // landing without bounce, what is left is round-off of what was.
+  // landing without bounce, the rest is round-off of the speeds before.
   double scale = speed_scale(bodies, law);
   while (result.solves < options.max_solves && fastest_approach(bodies, law) > kApproachRounding * scale) {
     if (result.solves == options.max_solves - 1) set_restitution(law, 0);

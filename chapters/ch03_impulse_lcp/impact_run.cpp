@@ -79,7 +79,7 @@ int run_impact(const Scene& scene, const Solver& solve, const RunContext& contex
     contacts.push_back({spec.body_a, spec.body_b, spec.point, spec.normal, 0.0, restitution});
   }
 
-  // Resolve the impact, keeping the first solve that succeeded, or the first of all, for the tables.
+  // Resolve the impact. For the tables, keep the first solve that succeeded, or else the first.
   ImpactProblem problem = assemble(bodies, contacts);
   std::optional<TimedResult> shown;
   std::int64_t solver_runs = 0, solver_ns = 0;

@@ -6,7 +6,7 @@
 
 namespace fc::lcp {
 
-// Resolves the impact of the scene's contacts, and writes the tables. Throws SceneFailure, after that, if a solve failed.
+// Resolves the impact of the scene's contacts, and writes the tables. Then throws SceneFailure if a solve failed.
 int run_impact(const Scene& scene, const Solver& solve, const RunContext& context, Summary& summary);
 
 }  // namespace fc::lcp

@@ -11,7 +11,7 @@ namespace fc::lcp {
 namespace {
 
 constexpr int kNewtonSteps = 100;
-// How much of the way to the boundary a step may take.
+// The share of the distance to the boundary that a step may take.
 constexpr double kBack = 0.995;
 
 // The longest step <= 1 that keeps v + step dv >= 0.
@@ -81,7 +81,7 @@ LcpResult solve_interior_point(const Lcp& problem, const SolveOptions& options) 
       result.status = step == 0 ? Status::unsuited : Status::limit;
       break;
     }
-    // Predict: straight at the corner, mu = 0. Then correct for the products that this would leave.
+    // Predict: aim straight at the corner, mu = 0. Then correct for the products that this would leave.
     VecX dz = system.solve(-r - w);
     VecX dw = -w - w.cwiseQuotient(z).cwiseProduct(dz);
     const double predicted = std::min(longest_step(z, dz), longest_step(w, dw));
@@ -99,7 +99,7 @@ LcpResult solve_interior_point(const Lcp& problem, const SolveOptions& options) 
       break;
     }
 
-    // What z says about the problem itself: rows that separate do not push.
+    // The result of z for the problem itself; also without the impulses of rows that separate.
     VecX pushing = z.cwiseQuotient(scale);
     for (Eigen::Index i = 0; i < n; ++i) {
       if (z[i] < w[i]) pushing[i] = 0;

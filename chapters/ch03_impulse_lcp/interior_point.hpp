@@ -1,4 +1,4 @@
-// An interior-point method: Newton's method on a problem whose corner has been rounded off, less and less.
+// An interior-point method: Newton's method on a problem whose corner is rounded off, less and less.
 #pragma once
 
 #include "ch03_impulse_lcp/solver.hpp"
@@ -11,7 +11,7 @@ namespace fc::lcp {
 // depends on n.
 //   A: positive semidefinite, symmetric or not, of any rank.
 //   limit: steps; 0 means 100. tolerance: the residual that ends it; 0 means 1e-10. start is ignored: a guess
-//   on the boundary is no place for a method that walks inside.
+//   on the boundary is no use to a method that moves in the interior.
 // At the end the rows with z_i > w_i are solved for w_i = 0 exactly, if that makes the residual smaller.
 // Status: solved; no_solution, where the iterates grow along a direction that is a certificate; limit;
 // unsuited for bounds, or if the system of a step has no Cholesky factor. `pivots` counts the steps.

@@ -54,7 +54,7 @@ int run_lcp(const LcpSpec& spec, const SolverSpec& solver, const Solver& solve, 
   const TimedResult solved = solve_timed({A, b}, solve);
   write_solution({A, b}, solved, solver, context, summary);
   if (known && b.size() > 0) {
-    // Velocities, not impulses: of a singular matrix z is not unique, w is.
+    // Velocities, not impulses: for a singular matrix z is not unique, but w is.
     summary.add("largest difference of w from the given solution",
                 (solved.lcp.w - evaluate(A, b, *known)).lpNorm<Eigen::Infinity>());
   }

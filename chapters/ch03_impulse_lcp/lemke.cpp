@@ -13,16 +13,17 @@ namespace {
 
 // Rows and b are scaled so that entries are about 1. An entry of the entering column below kEntry (times the
 // column's largest) does not block; two ratios that differ by less than kTie (times the larger, or
-// absolutely) are the same.
+// absolutely) are equal.
 constexpr double kEntry = 1e-9;
-// Before a ray is believed, an entry must be smaller than this: what round-off leaves of zero.
+// Where nothing blocks, entries down to this one may block, before a ray is accepted: smaller ones are
+// round-off.
 constexpr double kLeastEntry = 1e-14;
 constexpr double kTie = 1e-11;
-// How often the inverse is compared with the matrix, and from which error on it is made afresh.
+// How often the inverse is compared with the matrix, and from which error on it is computed again.
 constexpr int kLookEvery = 16;
 constexpr double kDrift = 1e-11;
-// c is (1, ..., 1); if round-off, or a ray that proves nothing, ends the way from there, it is slanted so
-// much.
+// c is (1, ..., 1); if round-off, or a ray that proves nothing, ends the path from there, c is slanted by
+// these amounts.
 constexpr std::array<double, 3> kSlants = {0, 1, 7};
 
 class Lemke {
@@ -80,7 +81,7 @@ Lemke::Lemke(const Lcp& problem, double slant)
   size_ = n_ > 0 && !values_.isZero(0) ? values_.lpNorm<Eigen::Infinity>() : 1.0;
   values_ /= size_;
   b_ = values_;
-  // Multiples of the golden ratio, less their whole part, are spread evenly and in no order.
+  // Fractional parts of multiples of the golden ratio: spread evenly, in no order.
   for (int i = 0; i < n_; ++i) cover_[i] = 1 + slant * std::fmod(0.6180339887498949 * (i + 1), 1.0);
 }
 
@@ -103,7 +104,7 @@ bool Lemke::before(int i, int j) const {
     return a < b ? -1 : 1;
   };
   if (const int first = compare(values_[i] / ci, values_[j] / cj)) return first < 0;
-  if (basis_[static_cast<std::size_t>(i)] == 2 * n_) return true;  // z_0 leaves if it may: that is the end
+  if (basis_[static_cast<std::size_t>(i)] == 2 * n_) return true;  // z_0 leaves if it can: that is the end
   if (basis_[static_cast<std::size_t>(j)] == 2 * n_) return false;
   for (int k = 0; k < n_; ++k) {
     if (const int order = compare(inverse_(i, k) / ci, inverse_(j, k) / cj)) return order < 0;
@@ -148,7 +149,7 @@ MatX Lemke::basis_matrix() const {
   return B;
 }
 
-// Round-off gathers in a matrix that is exchanged column by column.
+// Round-off accumulates in a matrix that is exchanged column by column.
 void Lemke::refresh_if_drifted() {
   const MatX B = basis_matrix();
   const VecX all = VecX::Ones(n_);
@@ -172,7 +173,7 @@ Status Lemke::run(int limit) {
   int left = basis_[static_cast<std::size_t>(row)];
   exchange(row, 2 * n_);
 
-  // What leaves makes its complement the next to enter.
+  // The complement of the unknown that leaves is the next to enter.
   while (left != 2 * n_) {
     if (pivots_ >= limit) return Status::limit;
     set_column(complement(left));

@@ -54,7 +54,7 @@ Banner read_banner(TextCursor& words) {
   return {format == "array", symmetry == "symmetric", field == "integer"};
 }
 
-// Goes to the next line that is neither empty nor a comment, unless this one has words left.
+// Goes to the next line that is neither empty nor a comment, unless the present one has words left.
 void find_words(TextCursor& words, const char* what) {
   while (!words.at_end()) {
     TextCursor ahead = words;
@@ -83,7 +83,7 @@ Eigen::Index count(TextCursor& words, const char* what, Eigen::Index least, Eige
   return value;
 }
 
-// One entry a line, column by column. Where that is all the same, in a vector, a line may have several.
+// One entry a line, column by column. In a vector, where the order is clear, a line may have several.
 MatX read_array(TextCursor& words, const Banner& banner, Eigen::Index rows, Eigen::Index columns) {
   MatX matrix(rows, columns);
   for (Eigen::Index j = 0; j < columns; ++j) {

@@ -14,8 +14,8 @@ double nan_max(double a, double b) {
   return std::isnan(a) || a >= b ? a : b;
 }
 
-// z_i's distance from its bounds, in w's unit, and w_i: what the middle of the three leaves is what
-// complementarity misses. Without an upper bound that is min(s z, w).
+// The middle one of w_i and of z_i's distances from its two bounds, in w's unit: by that much complementarity
+// is violated. Without an upper bound that is min(s z, w).
 double violation(double scale, double z, double w, double low, double high) {
   const double above = scale > 0 ? scale * (z - low) : 0.0;
   const double below = scale > 0 ? scale * (z - high) : 0.0;
@@ -33,16 +33,17 @@ double ratio(const Measures& m) {
 template <class Measures>
 bool small_enough(const Measures& m, Eigen::Index n) {
   const double rounding = 8 * static_cast<double>(n) * std::numeric_limits<double>::epsilon() * m.az_size;
-  // An overflow makes a measure infinite; written so that the answer is then "no".
+  // An overflow makes a measure infinite; the answer is then "no".
   return m.in_bounds && rounding <= 1e-3 * m.b_size && m.violation <= 1e-6 * m.b_size + rounding;
 }
 
-// certifies_no_solution(), rows being scaled to a diagonal of 1: the size of z, against that of b, that no
+// For certifies_no_solution(), with rows scaled to a diagonal of 1: the size of z relative to b that no
 // solution has; and what counts as b'y < 0.
 constexpr double kHugeImpulse = 1e8;
 constexpr double kCertificateGap = 1e-9;
 
-// Where |A||z| is so many times |b|, the digits that cancel in A z + b are worth a longer sum.
+// Where |A||z| is more than this many times |b|, so many digits cancel in A z + b that it is summed in
+// extended precision.
 constexpr double kCancels = 16;
 
 }  // namespace
@@ -71,8 +72,8 @@ void check_arguments(const Lcp& problem) {
                                 std::to_string(A.cols()) + ", the vector has " + std::to_string(b.size()) +
                                 " entries; n by n and n are needed");
   }
-  // 0 times what is not finite is NaN; unlike a test of every entry, such a sum is done several entries at a
-  // time.
+  // 0 times a number that is not finite is NaN; unlike a test of every entry, this sum is computed several
+  // entries at a time.
   if ((A.array() * 0.0).sum() != 0)
     throw std::invalid_argument("LCP: the matrix has an entry that is not finite");
   if (!b.allFinite()) throw std::invalid_argument("LCP: the vector has an entry that is not finite");

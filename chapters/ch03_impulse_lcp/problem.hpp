@@ -1,5 +1,4 @@
-// The linear complementarity problem (LCP), what a solver of it returns, and the check that stands between
-// the two.
+// The linear complementarity problem (LCP), a solver's result, and the check of the one against the other.
 //
 //     w = A z + b,   z >= 0,   w >= 0,   z_i w_i = 0 for every row i
 //
@@ -17,8 +16,8 @@ namespace fc::lcp {
 enum class Status {
   solved,       // z passed acceptable()
   no_solution,  // proved: a certificate y >= 0, A'y <= 0, b'y < 0 was found and checked
-  ray,          // the method ran off to infinity (Lemke's method; Dantzig's never says this)
-  limit,        // the pivot limit was reached, or round-off won: the result did not pass acceptable()
+  ray,          // the method ended on a ray to infinity (Lemke's method; never Dantzig's)
+  limit,        // the pivot limit was reached, or the result, by round-off, did not pass acceptable()
   unsuited,     // the matrix is not one that the method is made for
 };
 
@@ -29,8 +28,8 @@ inline std::ostream& operator<<(std::ostream& out, Status status) {
 }
 
 // A problem as a solver takes it. It holds references: both must outlive the solve. Bounds are for friction
-// and joints, and ordinary contacts do without: where they are given, lower <= z <= upper takes the place of
-// z >= 0, and
+// and joints; ordinary contacts need none. Where they are given, lower <= z <= upper takes the place of z >=
+// 0, and
 //     w_i >= 0 where z_i = lower_i,   w_i <= 0 where z_i = upper_i,   w_i = 0 between them.
 struct Lcp {
   const MatX& A;                // n by n
@@ -46,15 +45,15 @@ struct Lcp {
   }
 };
 
-// What every solver returns. Unless solved, z and w are where the method stopped: finite, and not to be used
-// as an answer.
+// What every solver returns. Unless solved, z and w are those at which the method stopped: finite, but not an
+// answer.
 struct LcpResult {
   Status status = Status::limit;
   VecX z;                 // n
   VecX w;                 // n, always A z + b, computed anew from z
   double residual = 0;    // of (z, w), see residual()
-  int pivots = 0;         // exchanges of a row between the sets "z >= 0, w = 0" and "z = 0, w >= 0"; of an
-                          // iterative method its sweeps, of Newton's its steps
+  int pivots = 0;         // exchanges of a row between the sets "z >= 0, w = 0" and "z = 0, w >= 0"; for an
+                          // iterative method its sweeps, for Newton's its steps
   VecX certificate = {};  // n, y of no_solution_certificate(), if the status is no_solution; else empty
 };
 
@@ -65,37 +64,37 @@ void check_arguments(const Lcp& problem);
 // w = A z + b, each row summed in extended precision and rounded once.
 VecX evaluate(const MatX& A, const VecX& b, const VecX& z);
 
-// How far (z, w) is from complementary, without a unit: max_i |min(s_i z_i, w_i)| / max(|b|, ||A||z||), norms
-// of the largest entry, s_i = max_j |A_ij|; 0 where numerator and denominator are 0. Multiplying A, b or z by
-// a positive number changes nothing. With bounds, the middle one of s_i (z_i - lower_i), w_i and s_i (z_i -
-// upper_i) takes the place of min(s_i z_i, w_i). z and w: n. A NaN anywhere gives NaN.
+// How far (z, w) is from complementarity, without a unit: max_i |min(s_i z_i, w_i)| / max(|b|, ||A||z||),
+// norms of the largest entry, s_i = max_j |A_ij|; 0 where numerator and denominator are 0. Multiplying A, b
+// or z by a positive number changes nothing. With bounds, the middle one of s_i (z_i - lower_i), w_i and s_i
+// (z_i - upper_i) takes the place of min(s_i z_i, w_i). z and w: n. A NaN anywhere gives NaN.
 double residual(const Lcp& problem, const VecX& z, const VecX& w);
 
 // Whether (z, w) may be called solved. True only if
 //   z keeps its bounds exactly, and is at the one that w_i asks for where s_i = 0;
 //   w is A z + b to within r = 8 n epsilon max_i (|A||z|)_i, the round-off of a sum of n products;
 //   max_i |min(s_i z_i, w_i)| (or its form with bounds) <= 1e-6 max|b| + r, and r <= 1e-3 max|b|: a huge z
-//   would make any residual small, because z stands in its denominator, while w loses every digit.
+//   would make any residual small, because z is in its denominator, while w loses every digit.
 // Guarantee: what fails this is never called solved. Limit: it bounds an error in velocities, not in
 // impulses, which need not be unique.
 bool acceptable(const Lcp& problem, const VecX& z, const VecX& w);
 
 // Whether y, n, proves that a problem has no solution: every solution would have y'w >= 0, but y'w = (A'y)'z
 // + b'y is negative for every z that the bounds allow. That is so if b'y < 0 and A'y <= 0, y being >= 0; with
-// bounds other than z >= 0, if A'y = 0, and y has entries only towards where a row has no bound. Checked by
-// multiplication. Round-off leaves something of A'y, so the claim is: a solution would need impulses more
-// than 1e8 times what b asks of single rows; and b'y must be below -1e-9 |b|'y, or it may be round-off in b.
-// Entries of y of the wrong sign count as 0.
+// bounds other than z >= 0, if A'y = 0, and y has entries only in directions in which a row has no bound.
+// Checked by multiplication. Round-off keeps A'y from being exactly 0, so the claim is: a solution would need
+// impulses more than 1e8 times those that b needs in single rows. And b'y must be below -1e-9 |b|'y, or it
+// may be round-off in b. Entries of y of the wrong sign count as 0.
 bool certifies_no_solution(const Lcp& problem, const VecX& y);
-// The same y without its entries of the wrong sign, and of size 1 in rows scaled to a diagonal of 1: what anyone
-// can multiply. Empty if it certifies nothing.
+// The same y without its entries of the wrong sign, and of size 1 in rows scaled to a diagonal of 1: anyone can
+// check it by multiplication. Empty if it certifies nothing.
 VecX no_solution_certificate(const Lcp& problem, const VecX& y);
 
-// What a solver asks at its end; residual() and acceptable() at once, without memory from the heap once it
-// has met problems as large.
+// A solver's last check: residual() and acceptable() at once, without allocation after the first problem of a
+// size.
 struct Verdict {
   double residual = 0;
-  double error = 0;  // the same violation, as a ratio of max|b|: what an engineer would call the error in v+
+  double error = 0;  // the same violation relative to max|b|: the relative error of v+
   bool acceptable = false;
 };
 class Verifier {
@@ -106,7 +105,7 @@ class Verifier {
  private:
   friend double residual(const Lcp&, const VecX&, const VecX&);
   friend bool acceptable(const Lcp&, const VecX&, const VecX&);
-  // What the residual is made of.
+  // The terms of the residual.
   struct Measures {
     double violation = 0;  // max_i |min(s_i z_i, w_i)|, or its form with bounds
     double b_size = 0;     // max_i |b_i|

@@ -118,7 +118,7 @@ KnownProblem make_problem(Family family, Eigen::Index n, std::uint64_t seed) {
                                 std::to_string(n) + " rows; 4 to 10000" + (fours ? ", a multiple of 4" : "") +
                                 " are needed");
   }
-  // Families of one seed share nothing.
+  // Different families with the same seed have nothing in common.
   detail::Random random(seed * kFamilies.size() + static_cast<std::uint64_t>(family));
   const auto make = [&] {
     if (family >= Family::infeasible) return detail::insolvable_problem(family, n, random);

@@ -7,7 +7,7 @@
 namespace fc::lcp::detail {
 namespace {
 
-// m/s: what gravity adds to a speed in a step; z is this times the mass above.
+// m/s, what gravity adds to a speed in a step; z is this times the mass above.
 constexpr double kLoad = 0.125;
 
 struct Scene {
@@ -55,8 +55,8 @@ KnownProblem duplicates(int n, Random& random) {
   return p;
 }
 
-// Four contacts in each face; every face carries the bodies above it up to the next face that is apart. One
-// in four faces is apart, one carries with all corners, two with opposite ones: loads turn no box.
+// Four contacts in each face; every face carries the bodies above it up to the next separating face. Of four
+// faces one separates, one carries with all corners, two with opposite corners: loads turn no box.
 KnownProblem stack(int n, int doublings, Random& random) {
   const int boxes = n / 4;
   Scene scene{{RigidBody{}}, {}};
@@ -128,8 +128,8 @@ Vec3 random_vector(double size, Random& random) {
   return size * Vec3(2 * random.uniform() - 1, 2 * random.uniform() - 1, 2 * random.uniform() - 1);
 }
 
-// Where body b meets an earlier one (or the floor): one point on the line of centres if either is a ball,
-// else four around it, and their common normal leans.
+// The contacts of body b with an earlier one (or the floor): one point on the line of centres if either is a
+// ball, else four around it, with a common normal that leans.
 void meet(Scene& scene, int a, int b, const std::vector<char>& is_box, Random& random) {
   const Vec3 below = scene.bodies[static_cast<std::size_t>(b)].position;
   const Vec3 other =

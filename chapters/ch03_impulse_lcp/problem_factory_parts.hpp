@@ -1,5 +1,5 @@
-// What the problem factory's files share: random numbers that are the same everywhere, and how an answer is
-// planted.
+// What the problem factory's files share: random numbers that are the same on every platform, and how an
+// answer is planted.
 #pragma once
 
 #include <random>
@@ -40,7 +40,7 @@ void set_b(KnownProblem& problem);
 // w > 0 in the others, in random order.
 void plant(KnownProblem& problem, Eigen::Index active, Eigen::Index degenerate, Random& random);
 
-// A, and what is claimed of it and of its planted answer, by family: one function for each file.
+// Each makes A, and states what holds for it and for its planted answer, by family.
 KnownProblem random_problem(Family family, Eigen::Index n, Random& random);
 KnownProblem contact_problem(Family family, Eigen::Index n, Random& random);
 KnownProblem worst_case(Family family, Eigen::Index n);

@@ -1,5 +1,5 @@
-// The factory's matrices that are not of contacts: random ones of prescribed condition, rank and symmetry,
-// Hilbert's, and those with bounds.
+// The factory's matrices that do not come from contacts: random ones of prescribed condition, rank and
+// symmetry, Hilbert's, and those with bounds.
 #include <Eigen/QR>
 #include <cmath>
 #include <numeric>
@@ -9,8 +9,9 @@
 namespace fc::lcp::detail {
 namespace {
 
-// Entries become whole multiples of the largest one's power of two times 2^-36: few enough bits that the sums
-// of A z are exact. Moves an eigenvalue by at most n 2^-37 of the largest entry, at random by its root.
+// Rounds entries to whole multiples of 2^-36 times the largest one's power of two: few enough bits that the
+// sums of A z are exact. Moves an eigenvalue by at most n 2^-37 of the largest entry, typically by sqrt(n)
+// 2^-37.
 void round_entries(MatX& A) {
   const double unit = std::exp2(std::ceil(std::log2(A.cwiseAbs().maxCoeff())) - 36);
   for (double& x : A.reshaped()) x = std::round(x / unit) * unit;
@@ -43,7 +44,7 @@ MatX hilbert(Eigen::Index n) {
   return A;
 }
 
-// A skew matrix as large as the part of whole_gram(2n, n) beside the diagonal.
+// A skew matrix as large as the off-diagonal part of whole_gram(2n, n).
 MatX skew(Eigen::Index n, Random& random) {
   const int most = static_cast<int>(3 * std::sqrt(2.0 * static_cast<double>(n)));
   MatX K = MatX::Zero(n, n);

@@ -1,4 +1,4 @@
-// The factory's families on which pivoting does its worst, and problems without an answer.
+// The factory's worst cases of pivoting, and problems without a solution.
 #include <stdexcept>
 
 #include "ch03_impulse_lcp/delassus.hpp"
@@ -80,8 +80,8 @@ KnownProblem insolvable_problem(Family family, Eigen::Index n, Random& random) {
     p.b[n - 1] -= p.certificate.dot(p.b) + 1;  // b'y = -1
     return p;
   }
-  // Balls of 1 kg between two walls. Sum of the approach speeds: 0, since the walls stand still. Where balls
-  // approach, restitution asks for more than where they part gives.
+  // Balls of 1 kg between two walls. The approach speeds sum up to 0, since the walls are at rest.
+  // Restitution demands more where balls approach than it yields where they part.
   const auto balls = static_cast<int>(n) - 1;
   std::vector<RigidBody> bodies(static_cast<std::size_t>(n) + 1);
   for (int k = 1; k <= balls; ++k) {

@@ -11,7 +11,7 @@ namespace {
 constexpr int kSweeps = 10000;
 constexpr int kLookEverySweeps = 10;
 
-// A row without entries: no z changes its w. False if w then asks for a z that does not exist.
+// A row without entries: no z changes its w. False if no z is complementary to that w.
 bool settle_zero_row(const Lcp& problem, Eigen::Index i, VecX& z) {
   z[i] = problem.b[i] > 0 ? problem.low(i) : problem.b[i] < 0 ? problem.high(i) : z[i];
   const bool exists = std::isfinite(z[i]);
@@ -40,8 +40,7 @@ LcpResult solve_pgs(const Lcp& problem, const SolveOptions& options) {
     return result;
   }
 
-  // A sweep walks along the rows of A: these are the columns of its transpose, which lie in memory one after
-  // the other.
+  // A sweep goes along the rows of A. They are the columns of its transpose, which are contiguous in memory.
   const MatX rows = A.transpose();
   const VecX inverse = A.diagonal().cwiseInverse();
   LcpResult result = judged(problem, z, Status::solved);

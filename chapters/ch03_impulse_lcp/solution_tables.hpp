@@ -1,4 +1,4 @@
-// What a run of this chapter writes of a solve: solution.csv, solvers.csv, and their lines of the summary.
+// What a run writes about a solve: solution.csv, solvers.csv, and their lines of the summary.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// All solvers of the chapter behind one function: problem in, result out, and nobody's word is taken for it.
+// All solvers of the chapter behind one function: problem in, checked result out.
 #pragma once
 
 #include <array>
@@ -33,14 +33,14 @@ inline std::ostream& operator<<(std::ostream& out, Method method) {
 // The method of that name. Throws std::invalid_argument for another word.
 Method method_named(std::string_view name);
 
-// The residual at which iterative methods stop if nobody asks for another.
+// The default residual at which iterative methods stop.
 inline constexpr double kUsualResidual = 1e-10;
 
 struct SolveOptions {
   int limit = 0;         // pivots, sweeps or steps; 0: the method's own, stated in its header
   double tolerance = 0;  // the residual at which an iterative method stops, and that others must have; 0: the
                          // method's own
-  // n, a guess of z (the last step's, say); methods that cannot use it ignore it.
+  // n, a guess of z (for example the last step's); methods that cannot use it ignore it.
   const VecX* start = nullptr;
 };
 
@@ -48,9 +48,9 @@ struct SolveOptions {
 void require(double tolerance, LcpResult& result);
 
 // Solves the problem by the method. Guarantee: `solved` only if the result passed acceptable(); a method that
-// cannot have such a problem (bounds, a matrix outside its class) says `unsuited`. Throws
-// std::invalid_argument for sizes that do not match, entries that are not finite and bounds that are not as
-// Lcp says.
+// cannot solve such a problem (bounds, a matrix outside its class) returns `unsuited`. Throws
+// std::invalid_argument for sizes that do not match, entries that are not finite, and bounds that violate
+// Lcp's conditions.
 LcpResult solve(const Lcp& problem, Method method = Method::dantzig, const SolveOptions& options = {});
 
 // Rows -> impulses: what the impact law calls.

@@ -23,11 +23,11 @@ SceneFailure unsolved(const SolverSpec& spec, Status status, int pivots, double 
   switch (status) {
     case Status::no_solution:
       return {method +
-                  " proved that there is no solution: no velocities are right for all these contacts, as "
-                  "where a kinematic body presses another against a wall; let it give way",
+                  " proved that there is no solution: no velocities fulfil all these contacts at once, as "
+                  "where a kinematic body presses another against a wall; change its motion",
               "solver.method"};
     case Status::unsuited:
-      return {method + " is unsuited: this matrix is not one that it is made for; use " +
+      return {method + " is unsuited: the matrix is outside its class; use " +
                   (spec.method == "lemke" ? "dantzig" : "lemke"),
               "solver.method"};
     case Status::ray:
@@ -46,11 +46,11 @@ SceneFailure unsolved(const SolverSpec& spec, Status status, int pivots, double 
                         method, residual, spec.tolerance),
             "solver.tolerance"};
   if (spec.tolerance > 0 && residual <= spec.tolerance)
-    return {fmt::format(
-                "{} was done at solver.tolerance = {:g} with a residual of {:.2g}, too much for an impact; "
-                "lower it, or use {}",
-                method, spec.tolerance, residual, other),
-            "solver.tolerance"};
+    return {
+        fmt::format("{} ended at solver.tolerance = {:g} with a residual of {:.2g}, too large for an impact; "
+                    "lower it, or use {}",
+                    method, spec.tolerance, residual, other),
+        "solver.tolerance"};
   return {fmt::format("{} stopped after {} {} with a residual of {:.2g}: its own limit, or round-off; raise "
                       "solver.limit, or use {}",
                       method, pivots, counted_by(spec.method), residual, other),

@@ -1,4 +1,4 @@
-// What a failed solve says to whoever wrote the scene.
+// A failed solve as a message to whoever wrote the scene.
 #pragma once
 
 #include "ch03_impulse_lcp/problem.hpp"
@@ -7,10 +7,10 @@
 
 namespace fc::lcp {
 
-// The failure of the scene's solver, in the scene's words: which key ended it, at what residual, and what to
-// change.
+// The failure of the scene's solver in terms of the scene's keys: which key ended it, at what residual, and
+// what to change.
 //   status:   not solved.
-//   pivots:   or sweeps or steps, when it ended; residual: the one of problem.hpp, then.
+//   pivots:   (or sweeps, or steps) when it ended; residual: that of problem.hpp, at that time.
 SceneFailure unsolved(const SolverSpec& spec, Status status, int pivots, double residual);
 
 // "pivots", "sweeps" or "steps": what a method's limit counts.

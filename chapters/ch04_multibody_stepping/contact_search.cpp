@@ -215,7 +215,7 @@ bool slides_past(const World& world, const NearPair& near, double interval, doub
 
 // Sets how much of a gap (m) the search may spend. Returns whether that is so little that impacts pile up.
 bool aim_from(const World& world, const NearPair& near, const Pair& pair, double gap,
-              hulls::ReachOptions& options) {
+              hulls::TocOptions& options) {
   const double smallest = -least_gap(near);
   const clear::NextGap next = next_gap(world, gap, smallest);
   options.target = next.target;
@@ -259,27 +259,26 @@ void find_next_contact(const World& world, Pair& pair, double now, double dt, st
 
   const hulls::Model &model_a = world.model_of(pair.a), &model_b = world.model_of(pair.b);
   const NearPair near{model_a, motion_a, model_b, motion_b, 0};
-  hulls::ReachOptions options;
+  hulls::TocOptions options;
   options.interval = dt - now;
   options.tolerance = world.tolerance;
   options.max_pairs = world.max_pairs;
   ++report.queries;
-  hulls::Reach reach;
+  hulls::TimeOfContact toc;
   const auto search = [&] {
-    reach = hulls::first_reach(model_a, motion_a, model_b, motion_b, options, world.memory);
-    report.node_pairs += reach.node_pairs;
-    report.advances += reach.advances;
+    toc = hulls::time_of_contact(model_a, motion_a, model_b, motion_b, options, world.memory);
+    report.node_pairs += toc.node_pairs;
+    report.advances += toc.advances;
   };
   if (!gap) {  // a pair that is already within the tolerance reaches `start` at once
     options.target = next_gap(world, kFarAway, 0).target;
     options.slack = 0.25 * world.tolerance;
     options.start = world.keep();
     search();
-    if (reach.status == hulls::Reach::Status::reached && reach.time == 0)
+    if (toc.status == hulls::TimeOfContact::Status::reached && toc.time == 0)
       gap = hulls::model_distance(model_a, model_b, near.pose, world.tolerance).lower;
-    if (reach.status == hulls::Reach::Status::clear)
-      report.min_gap =
-          std::min(report.min_gap, reported_gap(world, pair, near.pose, reach.start_gap, report));
+    if (toc.status == hulls::TimeOfContact::Status::clear)
+      report.min_gap = std::min(report.min_gap, reported_gap(world, pair, near.pose, toc.start_gap, report));
   }
   bool little = false;  // no gap to spend
   if (gap) {
@@ -289,15 +288,15 @@ void find_next_contact(const World& world, Pair& pair, double now, double dt, st
     little = aim_from(world, near, pair, *gap, options);
     search();
   }
-  if (reach.status == hulls::Reach::Status::clear) return;
-  const bool limit = reach.status == hulls::Reach::Status::limit;
+  if (toc.status == hulls::TimeOfContact::Status::clear) return;
+  const bool limit = toc.status == hulls::TimeOfContact::Status::limit;
   if (!limit) {  // it comes near, but only slides past
-    const NearPair there{model_a, motion_a, model_b, motion_b, reach.time};
-    if (passes(world, there, options.interval - reach.time, reach.pair)) return;
+    const NearPair there{model_a, motion_a, model_b, motion_b, toc.time};
+    if (passes(world, there, options.interval - toc.time, toc.pair)) return;
   }
-  pair.stalled = limit ? little : little || !(now + reach.time > now);
+  pair.stalled = limit ? little : little || !(now + toc.time > now);
   pair.contact = !limit || pair.stalled;
-  pair.time = pair.stalled ? now : now + reach.time;
+  pair.time = pair.stalled ? now : now + toc.time;
   if (!pair.contact && !(pair.time > now)) throw no_progress(world, pair);
 }
 

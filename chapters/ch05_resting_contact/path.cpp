@@ -179,17 +179,17 @@ PathVerdict check_path(const world::World& world, const Contacts& contacts, Pair
     const std::optional<PathVerdict> verdict = by_planes(world, contacts, pair, a, b, dt, options);
     if (verdict && (verdict->clear || options.by_planes)) return *verdict;
   }
-  hulls::ReachOptions reaches;
-  reaches.interval = dt;
-  reaches.tolerance = world.tolerance;
-  reaches.target = required_gap;
-  reaches.slack = 0.25 * std::max(required_gap, world.tolerance);
-  reaches.start = -1;
-  reaches.max_pairs = std::min(world.max_pairs, options.most_pairs);
-  const hulls::Reach reach = hulls::first_reach(world.model_of(pair.a), a.motion, world.model_of(pair.b),
-                                                b.motion, reaches, world.memory);
-  if (reach.status == hulls::Reach::Status::clear) return {true, dt};
-  return {false, reach.time};
+  hulls::TocOptions asked;
+  asked.interval = dt;
+  asked.tolerance = world.tolerance;
+  asked.target = required_gap;
+  asked.slack = 0.25 * std::max(required_gap, world.tolerance);
+  asked.start = -1;
+  asked.max_pairs = std::min(world.max_pairs, options.most_pairs);
+  const hulls::TimeOfContact toc = hulls::time_of_contact(
+      world.model_of(pair.a), a.motion, world.model_of(pair.b), b.motion, asked, world.memory);
+  if (toc.status == hulls::TimeOfContact::Status::clear) return {true, dt};
+  return {false, toc.time};
 }
 
 }  // namespace fc::resting

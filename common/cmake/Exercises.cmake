@@ -1,6 +1,6 @@
 # fc_add_exercise(ch01 ex01_door LINKS ... DEMO ...): one exercise. LINKS is what its tests and its code need, and no more: it
-# is what a learner's first check has to wait for. DEMO is what the demo needs beyond that. Its parts, of which all but the
-# first are ours:
+# is what a learner's first check has to wait for. DEMO is what the demo needs beyond that. Its parts, all but the
+# first of them ours:
 #
 #   exercises/ch01/ex01_door.{hpp,cpp}         the contract, and the learner's code
 #   exercises/ch01/ex01_door.demo.cpp          a program that shows what the learner's code does
@@ -9,9 +9,9 @@
 #   tests/exercises/ch01/mutants/ex01_door.MISTAKE.cpp    first line: // Caught by: Suite.Test
 #                                   ....MISTAKE.change   the same as a change of the solution: see make_mutants.py
 #
-# An exercise that is a piece of the engine (common/pieces.hpp) has, instead of the demo, which it may have too,
+# An exercise that is a piece of the engine (common/pieces.hpp) has, in place of the demo or besides it,
 #
-#   exercises/ch01/ex06_closest_point.piece.cpp    hands the learner's function over; its first line: // See: SCENE
+#   exercises/ch01/ex06_closest_point.piece.cpp    exports the learner's function; its first line: // See: SCENE
 #
 # and the targets ch01_ex06_piece (bin/../pieces/ch01_ex06.so of the learner's file) and ch01_ex06_book_piece (the same of the
 # solution, in pieces/book/, for the tests).
@@ -20,8 +20,8 @@
 # a learner's file that does not compile breaks nothing else; and, for CTest, the proof that the tests are worth
 # something: every test fails on the stub, every mutant fails the test that its first line names, the solution passes.
 #
-# The stub's proof is about the file as we wrote it, so it has a copy of its own, which is made anew as long as nobody has
-# begun to write in the file. Where there is none (it was begun before the first configuration), the proof is left out. The
+# The stub's proof is about the file as committed, so it has a copy of its own, which is made anew until somebody has
+# begun to write in the file. Where there is no copy (writing began before the first configuration), the proof is left out. The
 # learner's file is no input of the configuration: that would cost seconds whenever it changes.
 function(fc_add_exercise chapter name)
   cmake_parse_arguments(ARG "" "" "LINKS;DEMO" ${ARGN})
@@ -102,7 +102,7 @@ function(fc_add_exercise chapter name)
   target_compile_options(${id}_mutants PRIVATE -Wno-unused-parameter)  # often the very mistake
 endfunction()
 
-# A module that the programs load: the function of `source`, handed over by `piece`. What it calls of the engine it finds in them.
+# A module that the programs load: the function of `source`, exported by `piece`. It finds the engine's functions in the program.
 function(fc_add_piece id chapter target folder source piece)
   add_library(${target} MODULE ${source} ${piece})
   fc_exercise_settings(${target} ${chapter})
@@ -123,11 +123,10 @@ function(fc_exercise_settings target chapter)
   if(NOT target MATCHES "_(demo|piece)$")
     target_link_libraries(${target} PRIVATE GTest::gtest_main)
   endif()
-  if(FC_SANITIZE AND TARGET fc_precompiled_tests AND target MATCHES "_tests$")  # no learner waits for this build
+  if(TARGET fc_precompiled_tests AND target MATCHES "_tests$")  # a learner's first check takes longer, all later ones less
     target_link_libraries(${target} PRIVATE fc_test_settings Eigen3::Eigen fmt::fmt GTest::gmock)
     target_precompile_headers(${target} REUSE_FROM fc_precompiled_tests)
   endif()
-  # They are many. A learner's file alone would only wait for it; and who tests these functions may have none.
   if(TARGET fc_precompiled AND target MATCHES "_(solution|stub|mutants)$")
     target_link_libraries(${target} PRIVATE Eigen3::Eigen fmt::fmt)
     target_precompile_headers(${target} REUSE_FROM fc_precompiled)

@@ -65,7 +65,7 @@ function(fc_add_library name)
 endfunction()
 
 # fc_add_sources(NAME [UNITY] FILES ... LINKS ...): a library of files of the current folder; FILES are names without ".cpp", and
-# may have wildcards. What only some programs need is such a library of its own, so that the others do not wait for it.
+# may have wildcards. Code that only some programs need is such a library, so that the others do not wait for it.
 function(fc_add_sources name)
   cmake_parse_arguments(ARG "UNITY" "" "FILES;LINKS" ${ARGN})
   set(unity "")
@@ -119,9 +119,9 @@ endfunction()
 
 # fc_add_test(NAME SOURCES ... LINKS ...): a GoogleTest executable whose tests CTest lists one by one. Tests find the
 # source tree, the executables and the public test data through the environment variables set here.
-#   UNITY     as for libraries: the files are compiled as one, but for those after APART, whose names meet others' names
-#   TOGETHER  CTest runs the tests in one process: a study that all of them read is then made once, not once for each. So do all
-#             tests with sanitizers, where a process takes a quarter of a second to start
+#   UNITY     as for libraries: the files are compiled as one, except those after APART, whose names clash with others
+#   TOGETHER  CTest runs the tests in one process: a study that all of them read is then made only once. So do all tests with
+#             sanitizers, where a process takes a quarter of a second to start
 function(fc_add_test name)
   cmake_parse_arguments(ARG "UNITY;TOGETHER" "TIMEOUT" "SOURCES;APART;LINKS" ${ARGN})
   if(NOT ARG_TIMEOUT)

@@ -1,5 +1,5 @@
-# cmake -D FROM=exercises/... -D TO=... -P copy_stub.cmake: copies an exercise's file as long as nobody has begun to write in
-# it, that is, while it has an FC_TODO and does not differ from the committed one.
+# cmake -D FROM=exercises/... -D TO=... -P copy_stub.cmake: copies an exercise's file until somebody has begun to write in
+# it, that is, while it has an FC_TODO and equals the committed one.
 file(STRINGS ${FROM} todo REGEX "FC_TODO\\(\"")
 get_filename_component(folder ${FROM} DIRECTORY)
 set(changed "")

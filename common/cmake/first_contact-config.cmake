@@ -1,4 +1,4 @@
-# What find_package(first_contact) reads: the libraries that ours need, then ours.
+# What find_package(first_contact) reads: the libraries that ours depend on, then ours.
 include(CMakeFindDependencyMacro)
 find_dependency(Eigen3 NO_MODULE)
 find_dependency(yaml-cpp)

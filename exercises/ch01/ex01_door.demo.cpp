@@ -1,5 +1,5 @@
-// Exercise 1.1, to be seen: a door swings shut against a ball. How many advances does your bound need, and
-// how many the naive one? Writes door.csv.
+// Demo of exercise 1.1: a door swings shut against a ball. How many advances does your bound need, and how
+// many the naive one? Writes door.csv.
 #include <cstdio>
 #include <filesystem>
 
@@ -12,7 +12,7 @@ namespace {
 
 using namespace fc;
 
-// The door's corners and the ball as GJK wants them, at time s.
+// The gap of the door's corners and the ball at time s, by GJK.
 double gap_at(const exercises::Door& door, const Vec3& ball, double radius, double s, Vec3& normal) {
   std::vector<Vec3> corners;
   const Mat3 turn = ca::rotation_about(door.axis, door.spin * s + 0.5 * door.spin_up * s * s);

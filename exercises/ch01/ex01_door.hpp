@@ -8,8 +8,8 @@
 namespace fc::exercises {
 
 // A body that turns about a fixed hinge, with a spin that changes evenly: at time s its points turn about the
-// line through `hinge` along `axis` with angular velocity (spin + spin_up s) axis. No point does anything
-// else.
+// line through `hinge` along `axis` with angular velocity (spin + spin_up s) axis, and do not move in any
+// other way.
 struct Door {
   Vec3 hinge = Vec3::Zero();  // m, world: any point of the hinge's line
   Vec3 axis = Vec3::UnitZ();  // unit, world
@@ -21,12 +21,12 @@ struct Door {
 // An upper bound, in m/s, of n . (velocity of any point of the door) at any time from t until end (s, 0 <= t
 // <= end).
 //   n: unit, world; it does not move.
-// No point exceeds it, not by the last digit either: what the computation may have rounded down is added. By
-// that the bound may grow, but by no more than 1e-12 of (|spin| + |spin_up| end) times the distance from
-// `hinge` to the corner farthest from it.
-// It may depend on how far the corners are from the hinge's line, not on where they are just now: they will
-// turn. No smaller bound of this kind holds: if the door turns far enough, one of its corners comes as near
-// to the bound as you like (for a constant spin, but for rounding). Not negative.
+// No point exceeds it, not even in the last digit: what the computation may have rounded down is added. The
+// bound may grow by that, but by no more than 1e-12 of (|spin| + |spin_up| end) times the distance from
+// `hinge` to the corner farthest from it. It may depend on the corners' distances from the hinge's line, but
+// not on where they are now, since they will turn. It is the smallest bound of this kind: if the door turns
+// far enough, one of its corners comes as near to it as you like (for a constant spin, up to rounding). Not
+// negative.
 double door_speed_bound(const Door& door, const Vec3& n, double t, double end);
 
 }  // namespace fc::exercises

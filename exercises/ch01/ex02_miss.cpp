@@ -7,8 +7,8 @@
 
 namespace fc::exercises {
 
-// This is conservative advancement as one finds it in the wild. It misses contacts, and it reports some too
-// late. There are four mistakes in it, each of which has been shipped in a real library.
+// Conservative advancement with four mistakes, each of which has been shipped in a real library. It misses
+// contacts, and reports some too late.
 Answer first_contact(const Rod& rod, double interval, double tolerance, int most) {
   FC_TODO("1.2");  // delete this line, and begin
 

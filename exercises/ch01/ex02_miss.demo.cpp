@@ -1,4 +1,4 @@
-// Exercise 1.2, to be seen: where your advancement looks while a rod tumbles to the floor. Writes miss.csv.
+// Demo of exercise 1.2: where your advancement looks while a rod tumbles to the floor. Writes miss.csv.
 #include <cmath>
 #include <cstdio>
 #include <filesystem>

@@ -7,8 +7,9 @@
 
 namespace fc::exercises {
 
-// A thin rod above the floor z = 0. Its middle moves up or down evenly, and it turns evenly in a vertical
-// plane: at time t its middle is at height + climb t, and it makes the angle tilt + spin t with the floor.
+// A thin rod above the floor z = 0. Its middle rises or falls at a constant speed, and it turns at a constant
+// rate in a vertical plane: at time t its middle is at height + climb t, and its angle with the floor is
+// tilt + spin t.
 struct Rod {
   double half_length = 0;  // m, > 0
   double height = 0;       // m

@@ -1,5 +1,5 @@
-// Exercise 1.3, to be seen: an ellipsoid tumbles down to the floor z = 0. How many advances does your bound
-// need, and how many with the longest half axis as reach? Writes ellipsoid.csv.
+// Demo of exercise 1.3: an ellipsoid tumbles down to the floor z = 0. How many advances does your bound need,
+// and how many with the longest half axis as reach? Writes ellipsoid.csv.
 #include <cmath>
 #include <cstdio>
 #include <filesystem>

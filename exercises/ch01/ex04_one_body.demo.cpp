@@ -1,5 +1,5 @@
-// Exercise 1.4, to be seen: the outlines of A, of B, of B - A, and of what B - A sweeps over, seen from
-// above. Writes outline.csv.
+// Demo of exercise 1.4: the outlines of A, of B, of B - A, and of the region that B - A sweeps over, seen
+// from above. Writes outline.csv.
 #include <cmath>
 #include <cstdio>
 #include <filesystem>

@@ -26,10 +26,9 @@ Vec3 difference_support(const Rounded& a, const Rounded& b, const Vec3& directio
 // The same for everything that B - A sweeps over while B flies straight by `travel` (world, m) and A stays.
 Vec3 swept_support(const Rounded& a, const Rounded& b, const Vec3& travel, const Vec3& direction);
 
-// The gap (m) along n (unit, world, from A to B) that is left during all of that flight, as far as n can
-// tell: negative if the slab closes. If it is > 0, A and B never meet on the way, and that is to be trusted:
-// rounding may make it smaller than the exact one, by at most 1e-12 of how far the points of both bodies are
-// from the origin, and never larger.
+// The smallest gap (m) along n (unit, world, from A to B) during all of that flight; negative if the slab
+// closes. If it is > 0, A and B certainly never meet on the way: rounding may make it smaller than the exact
+// one, by at most 1e-12 of the largest distance of the bodies' points from the origin, but never larger.
 double gap_on_the_way(const Rounded& a, const Rounded& b, const Vec3& travel, const Vec3& n);
 
 }  // namespace fc::exercises

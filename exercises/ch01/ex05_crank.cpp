@@ -11,8 +11,8 @@ double gap(const Crank& crank, double t) {
   return crank.clearance - crank.arm * std::sin(crank.angle + crank.spin * t);
 }
 
-// What is here is safe: no pin is faster than arm |spin|. But it takes the same factor off the gap at each
-// advance, and near the top of the circle hardly any.
+// This step is safe: no pin is faster than arm |spin|. But each advance divides the gap only by the same
+// factor, which near the top of the circle is hardly more than 1.
 double safe_step(const Crank& crank, double t, double target) {
   FC_TODO("1.5");  // delete this line, see the plot, and begin
   const double speed = crank.arm * std::abs(crank.spin);

@@ -1,5 +1,4 @@
-// Exercise 1.5, to be seen: advances against tolerance, with your step and with the linear one. Writes
-// crank.csv.
+// Demo of exercise 1.5: advances against tolerance, with your step and with the linear one. Writes crank.csv.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

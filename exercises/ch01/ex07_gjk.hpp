@@ -10,17 +10,17 @@ using ca::clear::ClosestPointFunction;
 using ca::clear::Gap;
 
 // The distance of A and B at a pose, enclosed by two bounds. All points below are in world axes, from A's centre of mass: a
-// point p of A is at rotation_a p, a point q of B at offset_world + rotation_b q. ca::support(shape, direction) wants a
+// point p of A is at rotation_a p, a point q of B at offset_world + rotation_b q. ca::support(shape, direction) takes a
 // direction in the shape's own axes.
-//   closest_point: as 1.6 has it; call it, and nothing else, for a simplex of B - A.
+//   closest_point: that of 1.6; call it, and nothing else, for a simplex of B - A.
 //   accuracy: m; stop when upper - lower is at most this. Stop, too, when the farthest point is already a corner, or |x| no
 //     longer falls; and after 128 iterations, whatever the bounds are then.
 //
-// Gives back
+// Returns
 //   upper    |x| less both radii, at least 0: the distance of point_a and point_b
-//   lower    the largest support gap that was met, less both radii and rounding_term(a, b, pose): never above the true
+//   lower    the largest support gap found, less both radii and rounding_term(a, b, pose): never above the true
 //            distance
-//   normal   the unit vector from A to B along which `lower` was met
+//   normal   the unit vector from A to B along which `lower` was found
 //   point_a, point_b   on the shapes, where they are `upper` apart; with the radii
 //   corners, from_a, from_b   the simplex that x is a point of: how many corners, and which point of each body made them
 // If x comes to within rounding_term() of the origin, or all four corners are needed, the cores overlap: upper = 0, corners = 0

@@ -15,22 +15,22 @@ using ca::clear::status_at_start;
 using ca::clear::witness;
 
 // The first contact of two moving convex shapes in [0, options.interval].
-//   pieces: ask pieces.gap (with pieces.closest_point) for gaps and pieces.speed_bound for speeds, so that whoever wrote them is
-//     asked. clear/answer.hpp has what stands around the loop; use it:
+//   pieces: take gaps from pieces.gap (with pieces.closest_point) and speeds from pieces.speed_bound, whoever wrote them.
+//     clear/answer.hpp has the surroundings of the loop; use them:
 //       check_clear_query()   first
-//       mover()               a body as speed_bound wants it
-//       report()              after each gap, whatever comes of it
-//       status_at_start()     which of the two statuses at t = 0
+//       mover()               a body in the form that speed_bound takes
+//       report()              after each gap, whatever follows
+//       status_at_start()     the status at t = 0: touching or penetrating
 //       witness()             for result.features, if the status is contact or touching_at_start
 //
-// At each time: tolerance = the larger one of options.tolerance and 8 rounding_term(); ask for the gap to an accuracy of
+// At each time: tolerance = the larger of options.tolerance and 8 rounding_term(); compute the gap to an accuracy of
 // tolerance / 8; then
 //   upper <= tolerance                  `contact`, or at t = 0 what status_at_start() says
 //   t is the interval's end             `separated`
 //   options.max_iterations advances made, or lower <= tolerance / 2, or t can no longer grow     `unresolved`
 // Otherwise advance as far as the gap certainly stays at tolerance / 2, and count it in result.iterations. With
-// options.certificate each advance is a row: t, n, gap_lower, a speed with gap_lower - speed * advance >= 0 that the pair
-// certainly keeps to, and the advance.
+// options.certificate each advance is a row: t, n, gap_lower, a speed that the pair certainly does not exceed, with
+// gap_lower - speed * advance >= 0, and the advance.
 // Guarantee: before result.toc the shapes are disjoint.
 ca::AdvanceResult advance(const ca::Convex& a, const ca::Motion& motion_a, const ca::Convex& b,
                           const ca::Motion& motion_b, const ca::AdvanceOptions& options,

@@ -1,5 +1,5 @@
-// Exercise 2.1, to be seen: a fat capsule tumbles towards a post. How many advances does your step need, and
-// how many the one that FCL and C2A take, with the radius in it? Writes capsule.csv.
+// Demo of exercise 2.1: a fat capsule tumbles towards a post. How many advances does your step need, and how
+// many that of FCL and C2A, whose bound includes the radius? Writes capsule.csv.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>

@@ -9,8 +9,8 @@
 namespace fc::exercises {
 namespace {
 
-// This is conservative advancement with two hierarchies as one finds it in the wild: short, plausible, often
-// right. There are four mistakes in it. Three were shipped in real libraries; the fourth only costs.
+// Conservative advancement with two hierarchies: short, plausible, often right. There are four mistakes in
+// it. Three were shipped in real libraries; the fourth only costs time.
 struct Traversal {
   const hulls::HullModel& a;
   const ca::Motion& motion_a;

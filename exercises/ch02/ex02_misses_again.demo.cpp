@@ -1,4 +1,4 @@
-// Exercise 2.2, to be seen: where your steps begin while an arm swings round to a post. Writes miss.csv.
+// Demo of exercise 2.2: where your steps begin while an arm swings round to a post. Writes miss.csv.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>

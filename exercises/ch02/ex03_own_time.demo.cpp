@@ -1,5 +1,5 @@
-// Exercise 2.3, to be seen: two bumpy balls fly past each other until they touch. How many pairs of hulls
-// does your search look at, and how many a global step and a depth-first search? Writes looks.csv.
+// Demo of exercise 2.3: two bumpy balls fly past each other until they touch. How many pairs of hulls does
+// your search look at, and how many a global step and a depth-first search? Writes looks.csv.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -79,7 +79,7 @@ struct Balls {
   }
 };
 
-// As FAST and C2A: the shortest safe step of all pairs of leaves, from the roots down, again and again.
+// Like FAST and C2A: the shortest safe step of all pairs of leaves, from the roots down, again and again.
 struct GlobalStep {
   const Pairs& pairs;
   double t = 0, until = 0;
@@ -105,7 +105,8 @@ struct GlobalStep {
   }
 };
 
-// Each pair of leaves to its own contact, in the order of the trees, unless one is known that is earlier.
+// Takes each pair of leaves to its own contact, in the order of the trees, unless an earlier contact is
+// known.
 void depth_first(const Pairs& pairs, int pair, double t, Found& best) {
   while (t < best.time) {
     const Look look = pairs.look(pair, t);

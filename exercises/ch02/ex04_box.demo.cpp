@@ -1,5 +1,5 @@
-// Exercise 2.4, to be seen: a ball comes down to a slanted plate. How many pairs of nodes does it take to
-// tell them apart, with your boxes and with boxes along x, y, z? Writes pairs.csv.
+// Demo of exercise 2.4: a ball comes down to a slanted plate. How many pairs of nodes does it take to
+// separate them, with your boxes and with boxes along x, y, z? Writes pairs.csv.
 #include <cmath>
 #include <cstdio>
 #include <filesystem>

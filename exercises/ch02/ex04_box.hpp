@@ -1,4 +1,4 @@
-// Exercise 2.4: a box that lies along.
+// Exercise 2.4: an oriented box.
 #pragma once
 
 #include <algorithm>
@@ -20,8 +20,8 @@ struct Box {
   Eigen::Vector3f half;    // m, >= 0
 };
 
-// The nearest floats. Given, and to be used for whatever is measured against afterwards: where a double is
-// made a float and a double again, GCC 12 may take the number that it was before. This goes through memory.
+// The nearest floats. Given; use it for every float that you compare with afterwards: where a double is
+// converted to float and back, GCC 12 may use the double from before. This goes through memory.
 inline Eigen::Vector3f nearest_floats(const Vec3& x) {
   Eigen::Vector3f result;
   for (int k = 0; k < 3; ++k) {
@@ -31,7 +31,7 @@ inline Eigen::Vector3f nearest_floats(const Vec3& x) {
   return result;
 }
 
-// Half the surface, m^2: in the long run, how often something else hits the box.
+// Half the surface, m^2: proportional to how often, on average, something else hits the box.
 inline double surface(const Box& box) {
   const Vec3 h = box.half.cast<double>();
   return 4 * (h[0] * h[1] + h[1] * h[2] + h[2] * h[0]);
@@ -41,11 +41,11 @@ inline double surface(const Box& box) {
 // plane, on a line, or in one place).
 //   It contains them, in exact arithmetic, up to 1e-12 of their distance from the origin.
 //   Its surface is at most 1.1 times that of the best box (there is no formula for that one; the tests know
-//   it for their points), and never larger than that of the box along x, y, z: both up to what floats cost,
-//   which is some 1e-7 of the distance from the origin in each half side.
+//   it for their points), and never larger than that of the box along x, y, z: both up to the rounding of
+//   floats, about 1e-7 of the distance from the origin in each half side.
 Box fit_box(std::span<const Vec3> points);
 
-// ---- Given: a hierarchy that uses your boxes, and the question that the tests ask of it. ----
+// ---- Given: a hierarchy that uses your boxes, and the question that the tests ask it. ----
 
 using Triangle = std::array<Vec3, 3>;  // m
 using Fit = Box (*)(std::span<const Vec3>);
@@ -100,7 +100,8 @@ inline double gap(const Box& a, const Box& b) {
   return best;
 }
 
-// Which pairs of leaves can be within `near` (m) of each other? How many pairs of nodes it takes to tell.
+// The number of pairs of nodes that it takes to find which pairs of leaves can be within `near` (m) of each
+// other.
 inline std::int64_t node_pairs(const Tree& a, const Tree& b, double near, int i = 0, int j = 0) {
   const Tree::Node &x = a.nodes[i], &y = b.nodes[j];
   if (gap(x.box, y.box) > near || (x.left < 0 && y.left < 0)) return 1;

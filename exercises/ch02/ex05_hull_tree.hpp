@@ -11,14 +11,14 @@ using hulls::HullNode;
 using hulls::HullTree;
 
 // A binary tree over convex pieces. Each piece is given by its points (m, body axes): at least one piece, with at least one
-// point each. What each field of a node means stands at HullNode.
+// point each. HullNode says what each field of a node means.
 //
 //   - Node 0 is the root. Every other node is the child of one node, and each piece is in one leaf.
 //   - A leaf has `piece` and that piece's points; `left` and `right` stay -1.
 //   - An inner node has `left` and `right`, and points whose convex hull holds the points of both children. They are
-//     points of the pieces below: the hull of these, and no more. Whether points inside the hull are kept is up to you;
-//     fc::hull_vertices (common/convex_hull.hpp) finds those that must be. It may leave out a point that lies up to
-//     kHullRounding times the size of the points outside: `slack` (m) says how much, 0 if all points are kept.
+//     points of the pieces below, so that the hull is no larger than that of the pieces. Whether points inside the hull are
+//     kept is up to you; fc::hull_vertices (common/convex_hull.hpp) finds those that must be. It may leave out a point that
+//     lies up to kHullRounding times the size of the points outside: `slack` (m) says how much, 0 if all points are kept.
 //   - `center` is the middle of the box of the node's points, `radius` the largest distance of one of them from it.
 //   - The pieces of an inner node are split at the median: sorted by the middle of each piece's box along the axis in which
 //     these middles spread most, the first half goes left (half of n, rounded down), the rest right.

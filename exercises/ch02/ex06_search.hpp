@@ -19,9 +19,9 @@ using hulls::clear::SearchOptions;
 //   pieces    chapter 1's: pieces.gap(convex_a, convex_b, pose, accuracy, pieces.closest_point),
 //             pieces.speed_bound(n, mover_a, mover_b, duration)
 //
-// A look computes the gap of one pair of nodes at one time. It is taken at the time until which that pair is proved clear:
-// by its own looks, and those of the pairs that it came from. No pair is looked at whose time lies beyond the first contact,
-// or at the interval's end.
+// A look computes the gap of one pair of nodes at one time: the time until which that pair is proved clear, by its own looks
+// and those of the pairs that it came from. No pair is looked at whose time lies beyond the first contact, or at the
+// interval's end.
 //
 //   contact   two leaves have a certified gap of at most target + slack (at t = 0: of at most options.start), or cannot
 //             get on: a leaf pair whose step is 0. `time` and both pieces are set. No pair of pieces had less than the

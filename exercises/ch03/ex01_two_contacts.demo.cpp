@@ -1,4 +1,4 @@
-// Exercise 3.1, to be seen: who pushes, for every b of the plane? Writes cones.csv.
+// Demo of exercise 3.1: which contacts push, for every b of the plane? Writes cones.csv.
 #include <cstdio>
 #include <filesystem>
 

@@ -18,9 +18,9 @@ struct Answer {
 };
 
 // All solutions whose pushing contacts P = {i: z_i > 0} have an invertible block A_PP; each once, in any
-// order. (With a singular block solutions come in whole lines; of those, this asks for the ends.) If A is
-// symmetric and positive semidefinite, an empty list proves that there is no solution at all.
-//   A: any 2 by 2 matrix: perhaps singular, perhaps zero, perhaps neither symmetric nor semidefinite.
+// order. (With a singular block, solutions form whole lines; only their ends are wanted.) If A is symmetric
+// and positive semidefinite, an empty list proves that there is no solution at all.
+//   A: any 2 by 2 matrix; it may be singular, zero, or neither symmetric nor semidefinite.
 //   b: any.
 // Guarantee: where the entries of A and b are whole numbers up to 2^24, no solution is lost to rounding, none
 // is invented, and each number of an answer is the exact one, rounded once.

@@ -1,4 +1,4 @@
-// Exercise 3.2, to be seen: what gradients reach for their products, with momentum and without. Writes
+// Demo of exercise 3.2: what gradients achieve with a number of products, with momentum and without. Writes
 // descent.csv.
 #include <cstdio>
 #include <filesystem>

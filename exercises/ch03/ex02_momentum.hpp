@@ -7,7 +7,7 @@
 
 namespace fc::exercises {
 
-// The Delassus matrix as this exercise may use it: by products, which are counted.
+// The Delassus matrix as this exercise may use it: only by products, which are counted.
 class Products {
  public:
   Products(std::span<const RigidBody> bodies, std::span<const lcp::Contact> contacts)
@@ -28,9 +28,9 @@ class Products {
   int spent_ = 0;
 };
 
-// The largest eigenvalue of A, 1/kg, from below: at most the true one (up to 1e-12 of it), and at least 0.98
-// of it for 1 to 200 contacts. 0 if A is 0, and if there are no contacts.
-//   products: the largest number of products with A that may be spent; the 0.98 wants 400.
+// The largest eigenvalue of A, 1/kg, approximated from below: at most the true one (up to 1e-12 of it), and
+// at least 0.98 of it for 1 to 200 contacts. 0 if A is 0, and if there are no contacts.
+//   products: the largest number of products with A that may be spent; for the 0.98, 400.
 double largest_eigenvalue(Products& A, int products);
 
 // Impulses z >= 0 that nearly solve w = A z + b, z >= 0, w >= 0, z'w = 0, by projected gradients with
@@ -42,8 +42,8 @@ VecX momentum_gradients(Products& A, const VecX& b, double largest, int products
 
 // ---- Given: the same without momentum. ----
 
-// z <- max(0, z - (A z + b) / L), from 0 on: downhill in the energy 1/2 z'Az + b'z, as far as A's largest
-// eigenvalue L allows without climbing.
+// z <- max(0, z - (A z + b) / L), from 0 on: downhill in the energy 1/2 z'Az + b'z, by the longest step that
+// A's largest eigenvalue L allows.
 inline VecX plain_gradients(Products& A, const VecX& b, double largest, int products) {
   VecX z = VecX::Zero(b.size());
   for (int k = 0; k < products; ++k) z = (z - (A.times(z) + b) / largest).cwiseMax(0.0);

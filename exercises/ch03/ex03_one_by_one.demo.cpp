@@ -1,5 +1,4 @@
-// Exercise 3.3, to be seen: a break shot at pool, one contact after the other and all at once. Writes
-// balls.csv.
+// Demo of exercise 3.3: a break shot at pool, one contact after the other and all at once. Writes balls.csv.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -20,8 +19,8 @@ struct Scene {
   std::vector<lcp::Contact> contacts;
 };
 
-// Fifteen balls of 57 mm in a triangle, and the cue ball below its tip, all touching. Half the list of
-// contacts stands from left to right, so the list itself is not symmetric.
+// Fifteen balls of 57 mm in a triangle, and the cue ball below its tip, all touching. Half of the list of
+// contacts runs from left to right, so the list itself is not symmetric.
 Scene rack() {
   const double diameter = 0.057;
   Scene scene;
@@ -46,7 +45,8 @@ Scene rack() {
   return scene;
 }
 
-// How far the velocities are from their own mirror image, m/s: the largest difference of a ball and its mate.
+// How far the velocities are from their own mirror image, m/s: the largest difference between a ball and its
+// mirror image.
 double asymmetry(const Scene& scene) {
   double worst = 0;
   for (const RigidBody& p : scene.bodies)

@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-// Dantzig's method as one finds it in engines: short, plausible, often right. There are four mistakes in it.
-// All were shipped, in one form or another.
+// Dantzig's method, short, plausible, often right. There are four mistakes in it. Engines have shipped all of
+// them, in one form or another.
 struct Method {
   const MatX& A;
   const VecX& b;
@@ -42,7 +42,7 @@ struct Method {
     int row = -1;  // -1: nothing stops the drive
     double step = kNever;
   };
-  // Who stops the drive of row d first?
+  // Which row stops the drive of row d first?
   Stop first_stop(int d, const VecX& dz, const VecX& dw) {
     Stop stop;
     if (dw[d] > zero_slope) stop = {d, -w[d] / dw[d]};

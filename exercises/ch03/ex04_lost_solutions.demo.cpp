@@ -1,5 +1,5 @@
-// Exercise 3.4, to be seen: how your drives end on six families of problems whose answer is known, 200 of
-// each. Writes ends.csv.
+// Demo of exercise 3.4: how your drives end on six families of problems whose answer is known, 200 of each.
+// Writes ends.csv.
 #include <cstdio>
 #include <filesystem>
 
@@ -12,7 +12,7 @@ namespace {
 
 using namespace fc;
 
-// What is true of the answer, in the words of the plot.
+// The verdict on an answer, in the words of the plot.
 const char* judge(const lcp::KnownProblem& problem, const exercises::Driven& got) {
   if (got.status == lcp::Status::limit) return "limit";
   if (got.status == lcp::Status::no_solution) {

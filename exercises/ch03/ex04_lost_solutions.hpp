@@ -12,15 +12,15 @@ struct Driven {
   int pivots = 0;                           // rows that entered or left the basis
 };
 
-// Solves w = A z + b, z >= 0, w >= 0, z'w = 0 by Dantzig's method, row after row, as the chapter's text has
-// it.
+// Solves w = A z + b, z >= 0, w >= 0, z'w = 0 by Dantzig's method, row after row, as in the chapter's text.
 //   A: n by n, 1/kg, symmetric, positive semidefinite, of any rank; a common factor of all entries, 2^-40 or
-//      2^40, changes nothing
-//   b: n, m/s; so does a factor of b
+//      2^40, must not matter
+//   b: n, m/s; nor must a factor of b
 //   most: the largest number of pivots
-// n <= 16, entries within some 1e3 of each other or 0, and no problem in between singular and regular (small
-// whole numbers, say): then no solution is lost, and none is invented. `solved`: lcp::acceptable();
-// `no_solution`: lcp::certifies_no_solution(); `limit`: after `most` pivots it is not known.
+// If n <= 16, if the entries are 0 or within about 1e3 of each other, and if no problem is nearly singular
+// (with small whole numbers, for example), no solution is lost, and none is invented. `solved`:
+// lcp::acceptable(); `no_solution`: lcp::certifies_no_solution(); `limit`: after `most` pivots it is not
+// known.
 Driven drive_all(const MatX& A, const VecX& b, int most);
 
 }  // namespace fc::exercises

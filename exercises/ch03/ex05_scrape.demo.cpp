@@ -1,5 +1,4 @@
-// Exercise 3.5, to be seen: a ball that is thrown at the floor with more and more speed along it. Writes
-// scrape.csv.
+// Demo of exercise 3.5: a ball is thrown at the floor with more and more speed along it. Writes scrape.csv.
 #include <cstdio>
 #include <filesystem>
 

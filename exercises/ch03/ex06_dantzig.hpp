@@ -5,7 +5,7 @@
 
 namespace fc::mine {
 
-// Solves w = A z + b, z >= 0, w >= 0, z'w = 0 by Dantzig's method, row after row, as the chapter's text has it.
+// Solves w = A z + b, z >= 0, w >= 0, z'w = 0 by Dantzig's method, row after row, as in the chapter's text.
 //   A:     n by n, 1/kg, symmetric, positive semidefinite, of any rank, zero rows included. A common factor of A or of b
 //          (2^-40, 2^40) changes nothing, and rows may differ in their units.
 //   b:     n, m/s; n may be 0.
@@ -17,9 +17,9 @@ namespace fc::mine {
 //   status       solved: (z, w) passed lcp::acceptable();
 //                no_solution: `certificate`, n, is a y >= 0 with A y = 0 and b'y < 0, and passed
 //                lcp::certifies_no_solution();
-//                limit: too many pivots, or round-off won
-//   residual     not needed: whoever calls it computes it anew
-// A decomposition of the basis from nothing at each pivot is fine.
+//                limit: too many pivots, or spoiled by round-off
+//   residual     not needed: the caller computes it
+// Decomposing the basis anew at each pivot is fine.
 lcp::LcpResult dantzig(const MatX& A, const VecX& b, int limit);
 
 }  // namespace fc::mine

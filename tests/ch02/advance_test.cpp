@@ -258,19 +258,19 @@ TEST(FirstReach, CoherentQueriesHaveTheSameAnswers) {
       const Vec3 shift = frame < 3 ? Vec3(1e-3 * frame * Vec3::UnitX()) : Vec3(unit_vector(random));
       const ca::Motion ma = motion(shift, Quat::Identity(), Vec3::Zero(), spin_a);
       const ca::Motion mb = motion(from, turned, aim - from, spin_b);
-      ReachOptions options;
+      TocOptions options;
       options.start = options.tolerance;
       const int last_a = coherent.last_a, last_b = coherent.last_b;
-      const Reach x = first_reach(a, ma, b, mb, options, coherent),
-                  y = first_reach(a, ma, b, mb, options, plain);
+      const TimeOfContact x = time_of_contact(a, ma, b, mb, options, coherent),
+                          y = time_of_contact(a, ma, b, mb, options, plain);
       ASSERT_EQ(x.status, y.status);
-      if (x.status != Reach::Status::reached) continue;
+      if (x.status != TimeOfContact::Status::reached) continue;
       ++hits;
       again += coherent.last_a == last_a && coherent.last_b == last_b;
       options.target /= 64;
       options.slack /= 64;
       options.start = -1;
-      ASSERT_LE(x.time, first_reach(a, ma, b, mb, options, plain).time);
+      ASSERT_LE(x.time, time_of_contact(a, ma, b, mb, options, plain).time);
       ASSERT_LE(x.pair.gjk.upper, options.tolerance);
       ASSERT_LE(x.node_pairs, y.node_pairs + 4 * 12);
     }

@@ -4,8 +4,8 @@
 #include "ch02_hull_hierarchy/advance.hpp"
 #include "ch02_hull_hierarchy/features.hpp"
 #include "ch02_hull_hierarchy/hull_model.hpp"
-#include "ch02_hull_hierarchy/reach_by_pieces.hpp"
 #include "ch02_hull_hierarchy/study/motions.hpp"
+#include "ch02_hull_hierarchy/toc_by_pieces.hpp"
 #include "tests/support/test_models.hpp"
 
 namespace {
@@ -50,21 +50,21 @@ TEST(ClearSearch, IsNeverLateAndWhereTheFastSearchIs) {
       SCOPED_TRACE(k);
       MotionPair m = k % 3 == 0 ? source.close() : source.far();
       if (k % 4 == 1) m.b.acceleration = Vec3(0.1, 0, -0.5);
-      ReachOptions options;
+      TocOptions options;
       options.target = 0.5 * tolerance;
       options.slack = 0.25 * tolerance;
       options.tolerance = options.start = tolerance;
-      const Reach fast = first_reach(model, m.a, model, m.b, options);
-      const Reach found = reach_by_pieces(model, m.a, model, m.b, options, pieces);
+      const TimeOfContact fast = time_of_contact(model, m.a, model, m.b, options);
+      const TimeOfContact found = toc_by_pieces(model, m.a, model, m.b, options, pieces);
       ASSERT_EQ(found.status, fast.status);
       EXPECT_LE(found.start_gap, model_distance(model, model, ca::PairPose(m.a, m.b, 0), tolerance).upper);
-      if (fast.status == Reach::Status::clear) continue;
+      if (fast.status == TimeOfContact::Status::clear) continue;
       ++hits;
       // When the true gap comes down to almost zero, neither search is late.
       options.target = 1e-9 * size;
       options.slack = 1e-10 * size;
       options.tolerance = options.start = 2e-9 * size;
-      const Reach truth = first_reach(model, m.a, model, m.b, options);
+      const TimeOfContact truth = time_of_contact(model, m.a, model, m.b, options);
       ASSERT_LE(found.time, truth.time);
       ASSERT_LE(found.pair.gjk.upper, tolerance);
       ASSERT_GE(found.pair.gjk.upper, 0.4 * tolerance) << "nearer than the target";
@@ -106,10 +106,10 @@ TEST(ClearSearch, ConvexShapesAreOnePiece) {
   ca::Motion still, flies;
   flies.position = Vec3(-3, 0.2, 0);
   flies.velocity = Vec3(4, 0, 0);
-  ReachOptions options;
-  const Reach fast = first_reach(ball, flies, ball, still, options);
-  const Reach found = reach_by_pieces(ball, flies, ball, still, options, pieces);
-  ASSERT_EQ(found.status, Reach::Status::reached);
+  TocOptions options;
+  const TimeOfContact fast = time_of_contact(ball, flies, ball, still, options);
+  const TimeOfContact found = toc_by_pieces(ball, flies, ball, still, options, pieces);
+  ASSERT_EQ(found.status, TimeOfContact::Status::reached);
   EXPECT_NEAR(found.time, fast.time, 1e-6);
 }
 
@@ -118,8 +118,8 @@ TEST(ClearSearch, RefusesWhatItCannotDo) {
   const Model model = ready(test::l_prism(), pieces), bare = test::model_of(test::l_prism());
   ca::Motion still, drags;
   drags.drag = 0.1;
-  EXPECT_THROW(reach_by_pieces(bare, still, model, still, {}, pieces), std::invalid_argument);
-  EXPECT_THROW(reach_by_pieces(model, drags, model, still, {}, pieces), std::invalid_argument);
+  EXPECT_THROW(toc_by_pieces(bare, still, model, still, {}, pieces), std::invalid_argument);
+  EXPECT_THROW(toc_by_pieces(model, drags, model, still, {}, pieces), std::invalid_argument);
 }
 
 }  // namespace

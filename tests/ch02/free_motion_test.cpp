@@ -45,8 +45,8 @@ Case random_case(Random& random, double drag, double spin_drag, bool only_a) {
   return c;
 }
 
-hulls::ReachOptions wide() {  // a target so wide that a bound which is slightly too small shows
-  hulls::ReachOptions options;
+hulls::TocOptions wide() {  // a target so wide that a bound which is slightly too small shows
+  hulls::TocOptions options;
   options.target = 0.02;
   options.slack = 0.01;
   options.tolerance = 0.04;
@@ -61,23 +61,23 @@ void search_against_samples(double drag, double spin_drag, bool only_a) {
   for (int trial = 0; trial < 120; ++trial) {
     const hulls::Model &a = models[trial % models.size()], &b = models[trial / models.size() % models.size()];
     const Case c = random_case(random, drag, spin_drag, only_a);
-    const hulls::ReachOptions options = wide();
-    const hulls::Reach reach = hulls::first_reach(a, c.a, b, c.b, options);
-    ASSERT_NE(reach.status, hulls::Reach::Status::limit) << trial;
+    const hulls::TocOptions options = wide();
+    const hulls::TimeOfContact toc = hulls::time_of_contact(a, c.a, b, c.b, options);
+    ASSERT_NE(toc.status, hulls::TimeOfContact::Status::limit) << trial;
     const auto distance = [&](double t) {
       return hulls::model_distance(a, b, ca::PairPose(c.a, c.b, t), 1e-6);
     };
     if (distance(0).lower < options.target) continue;
-    const bool hit = reach.status == hulls::Reach::Status::reached;
-    EXPECT_LE(reach.start_gap, distance(0).upper) << "m, trial " << trial;
+    const bool hit = toc.status == hulls::TimeOfContact::Status::reached;
+    EXPECT_LE(toc.start_gap, distance(0).upper) << "m, trial " << trial;
     (hit ? reached : clear) += 1;
     for (int k = 0; k <= kSamples; ++k) {
-      const double t = reach.time * k / kSamples;
+      const double t = toc.time * k / kSamples;
       ASSERT_GE(distance(t).upper, options.target * (1 - 1e-9))
-          << "m: nearer than the target at " << t << " s, before " << reach.time << " s, trial " << trial;
+          << "m: nearer than the target at " << t << " s, before " << toc.time << " s, trial " << trial;
     }
     if (hit) {
-      EXPECT_LE(distance(reach.time).lower, options.target + options.slack) << "m, trial " << trial;
+      EXPECT_LE(distance(toc.time).lower, options.target + options.slack) << "m, trial " << trial;
     }
   }
   EXPECT_GE(reached, 20);

@@ -1,5 +1,5 @@
 // The study's search, with every combination of order, bound, volume and leaves: never late, and where
-// first_reach is.
+// time_of_contact is.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -22,8 +22,8 @@ constexpr std::array kOrders = {Order::global, Order::controlled, Order::depth_f
 constexpr std::array kBounds = {Bound::naive, Bound::directional, Bound::second_order, Bound::points};
 constexpr std::array kVolumes = {Volume::sphere, Volume::swept_sphere, Volume::box, Volume::hull};
 
-ReachOptions options_at(double tolerance) {
-  ReachOptions options;
+TocOptions options_at(double tolerance) {
+  TocOptions options;
   options.tolerance = options.start = tolerance;
   options.target = 0.5 * tolerance;
   options.slack = 0.25 * tolerance;
@@ -53,10 +53,10 @@ TEST_P(StudySearch, EveryCombinationFindsTheFirstContact) {
   for (int i = 0; i < 4; ++i) motions.push_back(source.far());
   for (int i = 0; i < 3; ++i) motions.push_back(source.close());
   motions.back().b.acceleration = Vec3(0.1, 0, -0.5);
-  std::vector<Reach> truth, found;
+  std::vector<TimeOfContact> truth, found;
   for (const MotionPair& m : motions) {
-    truth.push_back(first_reach(model, m.a, model, m.b, options_at(1e-11 * size)));
-    found.push_back(first_reach(model, m.a, model, m.b, options_at(tolerance)));
+    truth.push_back(time_of_contact(model, m.a, model, m.b, options_at(1e-11 * size)));
+    found.push_back(time_of_contact(model, m.a, model, m.b, options_at(tolerance)));
   }
   int hits = 0;
   for (const Volume volume : kVolumes)
@@ -68,9 +68,10 @@ TEST_P(StudySearch, EveryCombinationFindsTheFirstContact) {
             SCOPED_TRACE(std::string(name_of(order)) + ", " + name_of(bound) + ", " + name_of(volume) + ", " +
                          name_of(leaves) + ", motion " + std::to_string(i));
             const MotionPair& m = motions[i];
-            const StudyReach r = study_reach(hulls, m.a, hulls, m.b, options_at(tolerance), {order, bound});
+            const StudyTimeOfContact r =
+                study_time_of_contact(hulls, m.a, hulls, m.b, options_at(tolerance), {order, bound});
             ASSERT_EQ(r.status, found[i].status);
-            if (r.status != Reach::Status::reached) continue;
+            if (r.status != TimeOfContact::Status::reached) continue;
             ++hits;
             EXPECT_LE(r.time, truth[i].time);
             const ModelDistance d = model_distance(model, model, ca::PairPose(m.a, m.b, r.time), 1e-9 * size);
@@ -90,13 +91,14 @@ TEST(StudySearchLimits, GivesUpWithoutSayingMoreThanIsProved) {
   MotionPair m;
   m.b.position = Vec3(5, 0.3, 0.2);
   m.b.velocity = Vec3(-6, 0, 0);
-  const double truth = first_reach(model, m.a, model, m.b, options_at(1e-9)).time;
+  const double truth = time_of_contact(model, m.a, model, m.b, options_at(1e-9)).time;
   for (const Order order : kOrders)
     for (const int most : {1, 5, 20}) {
-      ReachOptions options = options_at(1e-6);
+      TocOptions options = options_at(1e-6);
       options.max_pairs = most;
-      const StudyReach r = study_reach(hulls, m.a, hulls, m.b, options, {order, Bound::naive});
-      EXPECT_EQ(r.status, Reach::Status::limit) << name_of(order) << most;
+      const StudyTimeOfContact r =
+          study_time_of_contact(hulls, m.a, hulls, m.b, options, {order, Bound::naive});
+      EXPECT_EQ(r.status, TimeOfContact::Status::limit) << name_of(order) << most;
       EXPECT_LE(r.time, truth);
     }
 }
@@ -109,9 +111,9 @@ TEST(StudySearchVisits, EveryLookIsNoted) {
   m.b.velocity = Vec3(-6, 0, 0);
   for (const Order order : kOrders) {
     std::vector<Visit> visits;
-    const StudyReach r =
-        study_reach(hulls, m.a, hulls, m.b, options_at(1e-6), {order, Bound::points, &visits});
-    ASSERT_EQ(r.status, Reach::Status::reached);
+    const StudyTimeOfContact r =
+        study_time_of_contact(hulls, m.a, hulls, m.b, options_at(1e-6), {order, Bound::points, &visits});
+    ASSERT_EQ(r.status, TimeOfContact::Status::reached);
     EXPECT_EQ(static_cast<std::int64_t>(visits.size()), r.node_pairs + r.leaf_pairs);
     EXPECT_TRUE(
         std::any_of(visits.begin(), visits.end(), [](const Visit& v) { return v.fate == Fate::reached; }));

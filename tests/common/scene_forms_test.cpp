@@ -55,7 +55,7 @@ TEST(SceneForms, FormsOfNumbersChangeNothing) {
     if (three.find_first_of("xX") == std::string::npos)
       EXPECT_EQ(read(scene(three)).bodies[1].position, Vec3(5, 3, 0)) << three;
     else
-      EXPECT_NE(refusal(scene(three)).find("'" + three + "', which is no plain decimal number"),
+      EXPECT_NE(refusal(scene(three)).find("'" + three + "', which is not a plain decimal number"),
                 std::string::npos)
           << three;
   }

@@ -163,9 +163,9 @@ TEST(MeshForms, ObjKnownLinesArePassedOverAndTold) {
   EXPECT_EQ(left_out, "2 lines, 1 set of points");
   EXPECT_EQ(
       refusal("a.obj", text + "cstype bspline\n"),
-      "a.obj:10:1: 'cstype' belongs to a curve or surface by a formula, which is not read; export triangles");
+      "a.obj:10:1: 'cstype' belongs to a free-form curve or surface, which is not read; export triangles");
   EXPECT_EQ(refusal("a.obj", text + "call b.obj\n"),
-            "a.obj:10:1: 'call' would bring in another file, which is not done; export one file");
+            "a.obj:10:1: 'call' would include another file, which is not supported; export one file");
   EXPECT_EQ(
       refusal("a.obj", "usemtl C:\\red\\\n" + text),
       "a.obj:2:1: the line above ends with a backslash, so 'v' would belong to it; remove the backslash");

@@ -33,7 +33,7 @@ AdvanceResult advance(const Convex& a, const Motion& motion_a, const Convex& b, 
       return result;
     }
     if (result.iterations >= options.max_iterations || g.lower <= target)
-      return result;  // unresolved: clear until t, and nothing is said after it
+      return result;  // unresolved: clear until t, and nothing is known after it
 
     // How long does the gap last, above the target?
     const double remaining = options.interval - t;

@@ -1,4 +1,4 @@
-// 1.10, in its clear form: a certificate is followed, look by look.
+// 1.10, in its clear form: follows a certificate, look by look.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -12,7 +12,7 @@ namespace fc::ca::clear {
 std::string check_certificate(const std::vector<CertificateRow>& rows, const Convex& a,
                               const Motion& motion_a, const Convex& b, const Motion& motion_b, double toc) {
   constexpr double kRounding =
-      1e-12;  // relative: so far may times and lengths differ that should be the same
+      1e-12;  // relative: times and lengths that should be the same may differ by this
   double reached = 0;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const CertificateRow& row = rows[k];

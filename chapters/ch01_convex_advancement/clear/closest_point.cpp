@@ -1,4 +1,4 @@
-// 1.6, in its clear form: every face of the simplex is asked.
+// 1.6, in its clear form: tries every face of the simplex.
 #include <Eigen/QR>
 #include <cmath>
 #include <limits>

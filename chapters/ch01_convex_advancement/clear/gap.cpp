@@ -71,10 +71,10 @@ Gap gap(const Convex& a, const Convex& b, const PairPose& pose, double accuracy,
       best.corners = 0;
       return best;
     }
-    if (!(length < shortest)) break;  // rounding has the last word
+    if (!(length < shortest)) break;  // only rounding is left to gain
     shortest = length;
 
-    // |x| is an upper bound: two points are that far apart. The balls that round the shapes take theirs.
+    // |x| is an upper bound: two points are that far apart. The rounding radii are subtracted.
     const Vec3 n = direction_of(closest.point, simplex);
     best.upper = std::max(0.0, length - radii);
     best.point_a = point_a + a.radius * n;

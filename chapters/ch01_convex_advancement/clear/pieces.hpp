@@ -15,7 +15,7 @@ namespace fc::ca::clear {
 
 // 1.6: the point of a simplex that is closest to the origin.
 struct ClosestPoint {
-  std::array<double, 4> weight{};  // of each corner, >= 0, sum 1; 0: the corner is not needed for the point
+  std::array<double, 4> weight{};  // of each corner, >= 0, sum 1; 0: the corner is not needed
   Vec3 point = Vec3::Zero();       // m, sum of weight[i] * corner i
 };
 // simplex: 1 to 4 corners, m; flat and repeated ones, too.
@@ -44,8 +44,8 @@ struct Mover {
   Vec3 spin = Vec3::Zero();          // rad/s, world, constant
   double reach = 0;                  // m, the largest distance of a point from the centre of mass
 };
-// n: unit, from A to B, world. For every time from now until `duration` (s) later, in m/s; <= 0 proves that they do not close
-// in along n.
+// n: unit, from A to B, world. Holds for every time from now until `duration` (s) later, in m/s; <= 0 proves that they do not
+// close in along n.
 using SpeedBoundFunction = double(const Vec3& n, const Mover& a, const Mover& b, double duration);
 SpeedBoundFunction speed_bound;
 

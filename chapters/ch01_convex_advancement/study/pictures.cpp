@@ -16,7 +16,7 @@ using Points = std::vector<Vec3>;
 const Points kLeft = {{-1.1, -0.55, 0}, {-0.1, -0.8, 0}, {0.55, -0.1, 0}, {0.15, 0.75, 0}, {-0.9, 0.6, 0}};
 const Points kRight = {{1.35, 0.35, 0}, {2.3, -0.25, 0}, {2.75, 0.7, 0}, {1.9, 1.25, 0}};
 
-// GJK's: it takes four iterations here, drops a corner on its way, and meets a worse plane after a better one.
+// For GJK, which takes four iterations here, drops a corner, and meets a worse plane after a better one.
 const Points kTriangle = {{1.1, -1.2, 0}, {1.0, -0.1, 0}, {-0.8, 0.1, 0}};
 const Points kSquare = {{2.0, 0.1, 0}, {2.5, 0.7, 0}, {1.8, 1.3, 0}, {1.3, 0.6, 0}};
 
@@ -191,7 +191,7 @@ void draw_flight(const Scene& scene, const std::filesystem::path& out) {
     rows.row({number, row.t, row.normal.x(), row.normal.y(), row.normal.z(), row.gap_lower, row.speed_bound,
               row.advance});
     for (int k = 0; k <= 60; ++k) {
-      const double h = 0.025 * k * row.advance;  // half as long again as the row promises
+      const double h = 0.025 * k * row.advance;  // up to half as long again as the row promises
       along.row({number, h, support_gap(a, b, PairPose(query.a, query.b, row.t + h), row.normal)});
     }
     ++number;

@@ -1,5 +1,5 @@
-// What the drawings of chapter 1 are made from: tables of planes, simplices, looks and paths, computed by the
-// chapter's own code.
+// The tables behind chapter 1's drawings: planes, simplices, looks and paths, computed by the chapter's own
+// code.
 #pragma once
 
 #include <filesystem>
@@ -21,8 +21,8 @@ void draw_corners(const std::filesystem::path& out);
 void draw_turned(const std::filesystem::path& out);
 
 // The scene's flight: the true distance over time, where the advancement looks, what each certificate row
-// promises, and what the gap along its normal really is (flight_*.csv). The motion bound and the tolerance
-// are the scene's.
+// promises, and the true gap along its normal (flight_*.csv). The motion bound and the tolerance are the
+// scene's.
 void draw_flight(const Scene& scene, const std::filesystem::path& out);
 
 }  // namespace fc::ca

@@ -26,7 +26,7 @@ int main(int argc, char** argv) {
     app.add_option("SCENE", source.file, "The scene of the flight: two bodies")
         ->required()
         ->type_name("FILE");
-    app.add_option("--set", source.overrides, "Another value of the scene's (repeatable)")
+    app.add_option("--set", source.overrides, "Set one value of the scene (repeatable)")
         ->expected(1)
         ->allow_extra_args(false)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)

@@ -7,7 +7,7 @@ namespace fc::hulls::clear {
 namespace {
 
 // ANCHOR: build
-constexpr std::size_t kKeepAll = 24;  // points: to find out which are inside costs more than to look at them
+constexpr std::size_t kKeepAll = 24;  // points: of this few, finding the inner ones costs more than it saves
 
 Eigen::AlignedBox3d box_of(const std::vector<Vec3>& points) {
   Eigen::AlignedBox3d box;
@@ -42,7 +42,7 @@ struct TreeBuilder {
     return id;
   }
 
-  // Puts those pieces first that come first along the longest side of their middles' box: half of them.
+  // Moves to the front the half of the pieces that comes first along the longest side of their middles' box.
   int split(int begin, int end) {
     Eigen::AlignedBox3d box;
     for (int k = begin; k < end; ++k) box.extend(middles[order[k]]);

@@ -17,7 +17,7 @@ struct HullNode {
   std::vector<Vec3> points;    // m, body axes, about the centre of mass
   Vec3 center = Vec3::Zero();  // m: the middle of the points' box
   double radius = 0;           // m, the largest distance of a point from the centre, slack included
-  double slack = 0;            // m, how far outside a point may lie that the making of hulls left out
+  double slack = 0;            // m, how far outside a point may lie that was left out of the hull
   int left = -1, right = -1;   // nodes; -1: a leaf
   int piece = -1;              // leaves: the piece
 
@@ -44,7 +44,7 @@ struct Look {
   int a, b;      // nodes
   double gap;    // m, certified
   double speed;  // m/s, a bound of how fast the gap closes; 0 where the gap left no room for a step
-  double next;   // s, until which the pair is proved clear now
+  double next;   // s, until when the pair is now proved clear
   enum class Fate { advanced, opened, contact } fate;
 };
 
@@ -52,9 +52,9 @@ struct SearchOptions {
   double interval = 1;                   // s
   double target = 5e-7;                  // m, every step aims at this gap
   double slack = 2.5e-7;                 // m: two leaves with a gap of at most target + slack are in contact
-  double start = 1e-6;                   // m, the same at t = 0; negative: no gap of then is a contact
+  double start = 1e-6;                   // m, the same at t = 0; negative: no gap at t = 0 is a contact
   std::int64_t most_looks = 10'000'000;  // at pairs of nodes
-  std::vector<Look>* looks = nullptr;    // each look goes there, if anywhere
+  std::vector<Look>* looks = nullptr;    // receives each look; null: none
 };
 
 struct FirstContact {

@@ -8,18 +8,18 @@ namespace {
 
 // ANCHOR: waiting
 constexpr double kOpenBelow = 0.2;  // of both radii: with less room a pair is opened
-constexpr double kShorter = 1e-12;  // of a step: its own rounding
+constexpr double kShorter = 1e-12;  // share of a step that covers its own rounding
 constexpr double kRoughly = 0.05;   // of both radii: how precisely a gap of inner nodes is wanted
 
 // Two nodes, and until when they are proved to keep the target gap.
 struct WaitingPair {
   double time;  // s
   int a, b;
-  // A std::priority_queue has the largest on top: that is to be the earliest.
+  // A std::priority_queue has the largest on top: here, the earliest.
   bool operator<(const WaitingPair& other) const { return time > other.time; }
 };
 
-// A body as chapter 1's speed bound sees it, if it were no larger than one of its nodes.
+// A body as chapter 1's speed bound takes it, as if it were no larger than one of its nodes.
 ca::clear::Mover mover_of(const HullModel& body, const HullNode& node, const ca::Motion& motion, double t) {
   return {motion.velocity_at(t), motion.acceleration_at(t), motion.spin_at(t), body.convex(node).reach};
 }
@@ -62,7 +62,7 @@ FirstContact search(const HullModel& a, const ca::Motion& motion_a, const HullMo
       ++found.advances;
     }
 
-    // Two leaves at the target are the first contact; so are two that get no further.
+    // Two leaves at the target are the first contact; so are two that cannot advance any further.
     const double enough = t == 0 ? options.start : options.target + options.slack;
     const bool contact = leaves && (gap.lower <= enough || !(next > t));
     const bool open = !leaves && room <= kOpenBelow * radii;
@@ -78,7 +78,8 @@ FirstContact search(const HullModel& a, const ca::Motion& motion_a, const HullMo
       return found;
     }
 
-    // The pair waits on, or the two children of its larger node wait in its place: what is proved of it holds for them.
+    // The pair goes on waiting, or the two children of its larger node wait in its place: what is proved of it holds
+    // for them.
     if (!open) {
       queue.push({next, id_a, id_b});
     } else if (node_b.leaf() || (!node_a.leaf() && node_a.radius >= node_b.radius)) {

@@ -1,4 +1,4 @@
-// What accuracy costs: against the tolerance, and against the margin by which bodies meet or miss.
+// What accuracy costs, against the tolerance and against the margin by which bodies meet or miss.
 #include <algorithm>
 #include <optional>
 
@@ -13,12 +13,12 @@ void study_tolerance(const StudyCase& c, const StudyOptions& options) {
       options.out / "tolerance.csv",
       with({{"tolerance", "1"}, {"early", "s"}, {"early_p95", "s"}, {"early_max", "s"}}, kTallyColumns));
   const std::vector<MotionPair>& motions = c.families[0].motions;
-  const Tally truth = by_lanes(c.model, motions, reach_options(1e-12 * c.size));
+  const Tally truth = by_lanes(c.model, motions, toc_options(1e-12 * c.size));
   for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11}) {
-    const Tally tally = by_lanes(c.model, motions, reach_options(tolerance * c.size));
+    const Tally tally = by_lanes(c.model, motions, toc_options(tolerance * c.size));
     std::vector<double> early;
     for (std::size_t i = 0; i < motions.size(); ++i)
-      if (truth.answers[i].status == Reach::Status::reached)
+      if (truth.answers[i].status == TimeOfContact::Status::reached)
         early.push_back(truth.answers[i].time - tally.answers[i].time);
     table.row(
         with({tolerance, quantile(early, 0.5), quantile(early, 0.95), quantile(early, 1)}, cells(tally)));
@@ -35,17 +35,17 @@ struct Grazing {
 };
 
 // Makes a motion that misses graze: B is brought nearer along the nearest points' normal, again and again;
-// other points come nearer by no more than that, so that the two never overlap. The nearest that a pair comes
-// is found by halving: whether it comes to a gap is what a search answers.
+// other points come nearer by no more than that, so that the two never overlap. The smallest gap of a motion
+// is found by bisection: one search answers whether the pair comes to a given gap.
 std::optional<Grazing> grazing(const StudyCase& c, MotionPair m) {
   SearchMemory memory;
-  Reach reach;
+  TimeOfContact toc;
   const auto comes_to = [&](double gap) {
-    ReachOptions asked = reach_options(1e-11 * c.size);
+    TocOptions asked = toc_options(1e-11 * c.size);
     asked.target = asked.start = gap;
-    const Reach r = first_reach(c.model, m.a, c.model, m.b, asked, memory);
-    if (r.status == Reach::Status::reached) reach = r;
-    return r.status == Reach::Status::reached;
+    const TimeOfContact r = time_of_contact(c.model, m.a, c.model, m.b, asked, memory);
+    if (r.status == TimeOfContact::Status::reached) toc = r;
+    return r.status == TimeOfContact::Status::reached;
   };
   double high = 0.5 * c.size;
   if (comes_to(1e-3 * c.size) || !comes_to(high)) return std::nullopt;
@@ -55,12 +55,12 @@ std::optional<Grazing> grazing(const StudyCase& c, MotionPair m) {
       const double middle = 0.5 * (low + high);
       (comes_to(middle) ? high : low) = middle;
     }
-    // Past each other: neither from the start on nor at the end only.
-    if (reach.time < 0.1 || reach.time > 0.9) return std::nullopt;
-    if (high <= 1e-9 * c.size) return Grazing{m, reach.pair.gjk.normal};
-    m.b.position -= low * reach.pair.gjk.normal;
-    high =
-        std::max(high - low, 1e-9 * c.size) + 1e-3 * c.size;  // a new nearest pair may be as near as before
+    // Passing by: not in contact from the start on, nor only at the end.
+    if (toc.time < 0.1 || toc.time > 0.9) return std::nullopt;
+    if (high <= 1e-9 * c.size) return Grazing{m, toc.pair.gjk.normal};
+    m.b.position -= low * toc.pair.gjk.normal;
+    high = std::max(high - low, 1e-9 * c.size) +
+           1e-3 * c.size;  // another pair may now be as near as the first was
     if (!comes_to(high)) high = 0.5 * c.size;
   }
   return std::nullopt;
@@ -71,8 +71,8 @@ std::optional<Grazing> grazing(const StudyCase& c, MotionPair m) {
 void study_approach(const StudyCase& c, const StudyOptions& options) {
   TableWriter table(options.out / "approach.csv",
                     with({{"search", ""}, {"answer", ""}, {"margin", "1"}}, kTallyColumns));
-  ReachOptions reach = reach_options(1e-8 * c.size);  // finer than any margin
-  reach.max_pairs = kMostPairs;
+  TocOptions asked = toc_options(1e-8 * c.size);  // finer than any margin
+  asked.max_pairs = kMostPairs;
   const HullModel hulls = build_study_model(c.model, c.pieces, {Volume::hull, Leaves::pieces, kFewPoints});
   std::vector<Grazing> all;
   Progress progress("motions", static_cast<std::int64_t>(c.families[0].motions.size()), options.quiet);
@@ -89,10 +89,10 @@ void study_approach(const StudyCase& c, const StudyOptions& options) {
       for (const Grazing& g : all) {
         MotionPair m = g.motion;
         m.b.position += (hit ? -1 : 1) * margin * c.size * g.normal;
-        lanes.ask([&] { return first_reach(c.model, m.a, c.model, m.b, reach, memory); });
-        best.ask([&] { return study_reach(hulls, m.a, hulls, m.b, reach, {}); });
+        lanes.ask([&] { return time_of_contact(c.model, m.a, c.model, m.b, asked, memory); });
+        best.ask([&] { return study_time_of_contact(hulls, m.a, hulls, m.b, asked, {}); });
         fast.ask([&] {
-          return study_reach(hulls, m.a, hulls, m.b, reach, {Order::global, Bound::directional});
+          return study_time_of_contact(hulls, m.a, hulls, m.b, asked, {Order::global, Bound::directional});
         });
       }
       check_agree(best, lanes, 1e-2, "approach");

@@ -90,7 +90,7 @@ Contact contact_of(const StudyCase& c, const MotionPair& m) {
   return contact;
 }
 
-// How far the first contact's points are in one another at time t, along its normal, m.
+// How deep the bodies overlap at the first contact's points at time t, along its normal, m.
 double depth(const Contact& contact, const MotionPair& m, double t) {
   const Vec3 a = m.a.position_at(t) + m.a.rotation_at(t) * contact.point_a;
   const Vec3 b = m.b.position_at(t) + m.b.rotation_at(t) * contact.point_b;
@@ -170,7 +170,7 @@ void study_discrete(const StudyCase& c, const StudyOptions& options) {
       for (std::size_t i = 0; i < family.motions.size(); ++i) {
         const MotionPair& m = family.motions[i];
         const Contact& contact = contacts[i];
-        // Until the triangles cross; a check at each frame's end.
+        // Until the triangles cross, one check at each frame's end.
         double noticed = -1;
         for (int f = 1; f <= frames && noticed < 0; ++f) {
           const double t = static_cast<double>(f) / frames;
@@ -186,7 +186,7 @@ void study_discrete(const StudyCase& c, const StudyOptions& options) {
           deep.push_back(depth(contact, m, noticed) / c.size);
         }
         missed += contact.hit && noticed < 0;
-        // Until the first contact; a query for each frame.
+        // Until the first contact, one query for each frame.
         asked.interval = 1.0 / frames;
         for (int f = 0; f < frames; ++f) {
           const double t = static_cast<double>(f) / frames;

@@ -34,7 +34,7 @@ void study_ideas(const StudyCase& c, const StudyOptions& options) {
       {"hulls", kB, Bound::points, Volume::hull, kTriangles},
       {"pieces", kB, Bound::points, Volume::hull, Leaves::pieces},
       {"hulls of 64 points", kB, Bound::points, Volume::hull, Leaves::pieces, kFewPoints},
-      // The ancestors, and ours with one idea taken back.
+      // The earlier searches, and ours with one idea removed.
       {"FAST's", kG, Bound::directional, Volume::hull, Leaves::pieces},
       {"C2A's", kC, Bound::directional, Volume::swept_sphere, kTriangles},
       {"C2A's on boxes", kC, Bound::directional, Volume::box, kTriangles},
@@ -52,18 +52,18 @@ void study_ideas(const StudyCase& c, const StudyOptions& options) {
                                                      {"leaves", ""},
                                                      {"rounds", ""}},
                                                     kTallyColumns));
-  ReachOptions reach = reach_options(kStudyTolerance * c.size);
-  reach.max_pairs = kMostPairs;
+  TocOptions asked = toc_options(kStudyTolerance * c.size);
+  asked.max_pairs = kMostPairs;
   Progress progress("ideas", static_cast<std::int64_t>(rows.size() * c.families.size()), options.quiet);
   std::int64_t done = 0;
   std::map<std::tuple<Volume, Leaves, int>, HullModel> trees;  // each is made once
   for (const StudyCase::Family& family : c.families) {
-    const Tally lanes = by_lanes(c.model, family.motions, reach);
+    const Tally lanes = by_lanes(c.model, family.motions, asked);
     for (const Row& row : rows) {
       const std::tuple kind{row.volume, row.leaves, row.most_points};
       if (!trees.contains(kind))
         trees.emplace(kind, build_study_model(c.model, c.pieces, {row.volume, row.leaves, row.most_points}));
-      const Tally tally = by_study(trees.at(kind), family.motions, reach, row.order, row.bound);
+      const Tally tally = by_study(trees.at(kind), family.motions, asked, row.order, row.bound);
       check_agree(tally, lanes, 1e-2, row.label);
       table.row(with({family.name, row.label, name_of(row.order), name_of(row.bound), name_of(row.volume),
                       name_of(row.leaves), whole(quantile(tally.rounds, 0.5))},
@@ -85,8 +85,8 @@ void study_leaves(const StudyCase& c, const StudyOptions& options) {
                                                       {"tree_leaves", ""},
                                                       {"tree_points", ""}},
                                                      kTallyColumns));
-  ReachOptions reach = reach_options(kStudyTolerance * c.size);
-  reach.max_pairs = kMostPairs;
+  TocOptions asked = toc_options(kStudyTolerance * c.size);
+  asked.max_pairs = kMostPairs;
   struct Row {
     Volume volume;
     int most;
@@ -100,7 +100,7 @@ void study_leaves(const StudyCase& c, const StudyOptions& options) {
     for (const Row& row : rows) {
       const HullModel hulls = build_study_model(c.model, c.pieces, {row.volume, leaves, row.most});
       for (const StudyCase::Family& family : c.families) {
-        const Tally tally = by_study(hulls, family.motions, reach, Order::best_first, Bound::points);
+        const Tally tally = by_study(hulls, family.motions, asked, Order::best_first, Bound::points);
         table.row(with({family.name, name_of(row.volume), name_of(leaves),
                         row.most < kAllPoints ? Cell(std::int64_t{row.most}) : Cell(std::string("all")),
                         static_cast<std::int64_t>(hulls.pieces.start.size() - 1), points_in(hulls.tree)},
@@ -125,8 +125,8 @@ void study_triangles(const Shape& shape, const StudyOptions& options) {
   std::int64_t done = 0;
   for (const Shape& s : shapes) {
     const StudyCase c = study_case(s, options, true);
-    ReachOptions reach = reach_options(kStudyTolerance * c.size);
-    reach.max_pairs = kMostPairs;
+    TocOptions asked = toc_options(kStudyTolerance * c.size);
+    asked.max_pairs = kMostPairs;
     const Stopwatch watch;
     build_model(s);
     const std::int64_t boxes_ns = watch.ns();
@@ -140,11 +140,11 @@ void study_triangles(const Shape& shape, const StudyOptions& options) {
                      cells(tally)));
     };
     for (const StudyCase::Family& family : c.families) {
-      write(family.name, "boxes in lanes", boxes_ns, by_lanes(c.model, family.motions, reach));
+      write(family.name, "boxes in lanes", boxes_ns, by_lanes(c.model, family.motions, asked));
       write(family.name, "hulls", hulls_ns,
-            by_study(hulls, family.motions, reach, Order::best_first, Bound::points));
+            by_study(hulls, family.motions, asked, Order::best_first, Bound::points));
       write(family.name, "FAST's", hulls_ns,
-            by_study(hulls, family.motions, reach, Order::global, Bound::directional));
+            by_study(hulls, family.motions, asked, Order::global, Bound::directional));
     }
     progress.update(++done);
   }

@@ -12,7 +12,7 @@ int main(int argc, char** argv) {
   std::filesystem::path mesh = hulls::kBunny;
   int triangles = 0;  // 0: all
   Shape shape;
-  // A part on the mesh with its pieces, or without, which take long to find.
+  // Runs a part on the mesh; `pieces`: with its pieces, which take long to find.
   const auto on_mesh = [&](auto part, bool pieces) {
     return [&, part, pieces] { part(hulls::study_case(shape, study, pieces), study); };
   };
@@ -20,7 +20,7 @@ int main(int argc, char** argv) {
   program.purpose =
       "Measures what chapter 2's ideas gain. Two models of one mesh move against each other, `--far` times "
       "from afar and `--close` times from close by, always the same motions. Each part writes a table into "
-      "--out; columns that end in _ns are times of this machine, all others are the same in every run:";
+      "--out; columns that end in _ns are times on this machine, all others are the same in every run:";
   program.example =
       "build/bin/ch02_study --part ideas --triangles 5000 --far 40 --close 20 --out out/ch02/study";
   program.parts = {
@@ -42,7 +42,7 @@ int main(int argc, char** argv) {
     app.add_option("--mesh", mesh, "A closed mesh: OBJ, STL or PLY")
         ->capture_default_str()
         ->type_name("FILE");
-    app.add_option("--triangles", triangles, "Collapse edges until so many are left; 0: none")
+    app.add_option("--triangles", triangles, "Collapse edges until this many are left; 0: none")
         ->capture_default_str()
         ->check(CLI::NonNegativeNumber);
     app.add_option("--far", study.far, "Motions from afar")

@@ -43,7 +43,7 @@ class Decimation {
     bool operator<(const Edge& other) const { return length > other.length; }
   };
   std::vector<Vec3> vertices;
-  std::vector<std::array<int, 3>> triangles;  // those that are gone are {-1, -1, -1}
+  std::vector<std::array<int, 3>> triangles;  // removed ones are {-1, -1, -1}
   std::vector<std::vector<int>> around;       // the triangles at each vertex
   std::vector<int> changes;                   // how often each vertex was moved, or lost
   std::priority_queue<Edge> queue;

@@ -14,11 +14,11 @@ inline constexpr const char* kBunny = "/usr/share/glmark2/models/bunny.obj";
 Shape mesh_shape(const std::filesystem::path& file);
 
 // Collapses the shortest edges of a closed mesh to their middles until `target` triangles are left, or no
-// edge can go: the mesh stays closed and without crossing itself locally (an edge's ends must have two common
-// neighbours, and no triangle may turn over).
+// edge can be removed: the mesh stays closed, and locally does not cross itself (an edge's ends must have two
+// common neighbours, and no triangle may turn over).
 TriangleMesh decimated(const TriangleMesh& mesh, std::size_t target);
 
-// The same shape with about so many triangles, still closed; its centre of mass stays where it was.
+// The same shape with about this many triangles, still closed; its centre of mass stays where it was.
 Shape coarser(const Shape& shape, std::size_t triangles);
 
 // The longest side of its box, m.

@@ -24,7 +24,7 @@ class StudyMotions {
   MotionPair far() {
     while (true) {
       const Vec3 apart = size * uniform(1.1, 2.5) * direction();
-      const Vec3 aim = size * uniform(0, 2.9) * direction();  // where B would come to, seen from A
+      const Vec3 aim = size * uniform(0, 2.9) * direction();  // where B would arrive, seen from A
       const Vec3 relative = uniform(0.9, 1.5) * (aim - apart), velocity_b = uniform(0.2, 0.8) * relative;
       MotionPair pair{body(Vec3::Zero()), body(apart)};
       pair.a.velocity = velocity_b - relative;
@@ -83,8 +83,8 @@ class StudyMotions {
   ModelDistance distance(const MotionPair& pair) const {
     return model_distance(model, model, ca::PairPose(pair.a, pair.b, 0), 1e-9 * size);
   }
-  // B comes along a line through both centres until the gap is `gap`. Each step is what the gap has too much:
-  // it never falls below.
+  // B approaches along a line through both centres until the gap is `gap`. Each step is the excess of the
+  // gap, which never falls below.
   MotionPair near(double gap, const Vec3& line) {
     MotionPair pair{body(Vec3::Zero()), body(3 * size * line)};
     while (true) {

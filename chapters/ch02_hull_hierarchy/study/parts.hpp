@@ -34,13 +34,13 @@ struct StudyOptions {
 // The seeds are fixed: the same motions in every run, and the same as in bench_ch02.
 StudyCase study_case(const Shape& shape, const StudyOptions& options, bool with_pieces);
 
-// Accuracy wherever it is not what is varied: of the model's size.
+// The tolerance where it is not what is varied, as a share of the model's size.
 constexpr double kStudyTolerance = 1e-6;
 
-// As hulls::advance would ask.
-ReachOptions reach_options(double tolerance);
+// The options that hulls::advance would use.
+TocOptions toc_options(double tolerance);
 
-// Of many numbers: what is at least as large as this share of them; 0 of none.
+// The value that is at least as large as this share of the numbers; 0 if there are none.
 double quantile(std::vector<double> values, double share);
 
 void study_ideas(const StudyCase& c, const StudyOptions& options);      // ideas.csv

@@ -1,4 +1,4 @@
-// How tight the volumes are; hulls and visits to be drawn.
+// How tight the volumes are; and the hulls and visits that are drawn.
 #include <algorithm>
 #include <tuple>
 
@@ -78,8 +78,8 @@ void study_pictures(const StudyCase& c, const StudyOptions& options) {
   table.close();
 
   // The first of the far motions that hits after a while, as three searches see it.
-  ReachOptions reach = reach_options(kStudyTolerance * c.size);
-  reach.max_pairs = kMostPairs;
+  TocOptions asked = toc_options(kStudyTolerance * c.size);
+  asked.max_pairs = kMostPairs;
   TableWriter visits(options.out / "visits.csv", {{"search", ""},
                                                   {"time", "s"},
                                                   {"step", "s"},
@@ -88,13 +88,13 @@ void study_pictures(const StudyCase& c, const StudyOptions& options) {
                                                   {"leaves", ""},
                                                   {"fate", ""}});
   for (const MotionPair& m : c.families[0].motions) {
-    const Reach hit = first_reach(c.model, m.a, c.model, m.b, reach);
-    if (hit.status != Reach::Status::reached || hit.time < 0.3) continue;
+    const TimeOfContact hit = time_of_contact(c.model, m.a, c.model, m.b, asked);
+    if (hit.status != TimeOfContact::Status::reached || hit.time < 0.3) continue;
     for (const auto& [name, order, bound] : {std::tuple{"FAST's", Order::global, Bound::directional},
                                              std::tuple{"depth first", Order::depth_first, Bound::points},
                                              std::tuple{"ours", Order::best_first, Bound::points}}) {
       std::vector<Visit> seen;
-      study_reach(hulls, m.a, hulls, m.b, reach, {order, bound, &seen});
+      study_time_of_contact(hulls, m.a, hulls, m.b, asked, {order, bound, &seen});
       for (const Visit& v : seen)
         visits.row({name, v.time, v.step, v.gap, v.radii, std::int64_t{v.leaves}, name_of(v.fate)});
     }

@@ -125,7 +125,7 @@ void write_looks(const std::filesystem::path& file, const Flat& a, const Flat& b
     const auto pair = [&](int i, int j) { return name_of(a, i) + "–" + name_of(b, j); };
     const std::string name = pair(look.a, look.b);
     const auto at = std::find_if(queue.begin(), queue.end(), [&](const Waits& w) { return w.name == name; });
-    if (at == queue.end()) throw NumericalFailure("a pair was looked at that did not wait: " + name);
+    if (at == queue.end()) throw NumericalFailure("a pair was looked at that was not in the queue: " + name);
     queue.erase(at);
     if (look.fate == Look::Fate::advanced) queue.push_back({look.next, name});
     if (look.fate == Look::Fate::opened) {
@@ -151,9 +151,10 @@ void write_looks(const std::filesystem::path& file, const Flat& a, const Flat& b
 
 // What a search by global steps looks at, and the gap of each pair of nodes over time.
 void write_rounds(const std::filesystem::path& file, const Flat& a, const Flat& b,
-                  const ReachOptions& options) {
+                  const TocOptions& options) {
   std::vector<Visit> visits;
-  study_reach(a.model, a.motion, b.model, b.motion, options, {Order::global, Bound::directional, &visits});
+  study_time_of_contact(a.model, a.motion, b.model, b.motion, options,
+                        {Order::global, Bound::directional, &visits});
   TableWriter table(file, {{"time", "s"}, {"pair", ""}, {"step", "s"}});
   for (const Visit& visit : visits)
     table.row({visit.time, name_of(a, visit.a) + "–" + name_of(b, visit.b), std::min(visit.step, 1e9)});
@@ -243,7 +244,7 @@ int main(int argc, char** argv) {
     search.looks = &looks;
     clear::search(a.model, a.motion, b.model, b.motion, search, {});
     write_looks(out / "looks.csv", a, b, looks);
-    ReachOptions options;
+    TocOptions options;
     options.target = search.target;
     options.slack = search.slack;
     options.start = options.tolerance = 0.02;

@@ -16,7 +16,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // A pair whose gap is larger than this share of its radii is advanced again rather than opened.
 constexpr double kFarApart = 0.2;
 
-// Of a step in double precision: its own rounding.
+// The share of a step in double precision that covers its own rounding.
 constexpr double kShorter = 1e-12;
 
 // Two nodes, and until when they are known to be clear.
@@ -31,11 +31,11 @@ struct Search {
   const ca::Motion& motion_a;
   const HullModel& b;
   const ca::Motion& motion_b;
-  const ReachOptions& options;
+  const TocOptions& options;
   const StudySearchOptions& study;
-  StudyReach reach{};
+  StudyTimeOfContact toc{};
   bool found = false, given_up = false;
-  double end = options.interval;  // s: what is clear until then is of no interest. Sinks to the contact
+  double end = options.interval;  // s: a pair that is clear until then need not be kept. Falls to the contact
   ca::PairPose pose{motion_a, motion_b, 0};
   double pose_time = 0;
 
@@ -45,7 +45,7 @@ struct Search {
   bool leaves(const Pair& pair) const { return node_a(pair).leaf() && node_b(pair).leaf(); }
   bool far_apart(const Pair& pair) const { return pair.gap - options.target > kFarApart * radii(pair); }
   bool give_up() { return given_up = given_up || exhausted(); }
-  bool exhausted() const { return reach.node_pairs + reach.leaf_pairs >= options.max_pairs; }
+  bool exhausted() const { return toc.node_pairs + toc.leaf_pairs >= options.max_pairs; }
 
   // looking at a pair
   // ------------------------------------------------------------------------------------------------
@@ -56,7 +56,7 @@ struct Search {
     bool reached = false;  // two leaves that are in contact
   };
 
-  // The bound of the options: how long `room` lasts.
+  // How long `room` lasts by the bound that the options name.
   double safe_step(const Pair& pair, const ca::Convex& hull_a, const ca::Convex& hull_b, const Vec3& n,
                    double t, double room) const {
     if (study.bound == Bound::naive) {
@@ -84,13 +84,13 @@ struct Search {
     ca::GjkResult& g = look.gjk = ca::distance(hull_a, hull_b, pose, {options.slack / 4, 0.05, 128});
     const bool both_leaves = leaves(pair);
     if (both_leaves && g.lower <= options.target) g = leaf_distance(hull_a, hull_b, pose, options.tolerance);
-    ++(both_leaves ? reach.leaf_pairs : reach.node_pairs);
+    ++(both_leaves ? toc.leaf_pairs : toc.node_pairs);
     const double room = g.lower - options.target;
     if (room > 0) {
       look.step = (1 - kShorter) * safe_step(pair, hull_a, hull_b, g.normal, t, room);
-      ++reach.advances;
+      ++toc.advances;
     }
-    // Leaves that overlap by rounding have no upper bound to speak of: then the lower one decides.
+    // Leaves that overlap by rounding have no meaningful upper bound: then the lower one decides.
     const bool at_target =
         g.upper <= options.target + options.slack || g.lower <= options.target + 0.5 * options.slack;
     look.reached = both_leaves && ((at_target && t > 0) ||
@@ -103,7 +103,7 @@ struct Search {
   void contact(const Pair& pair, double t, const ca::GjkResult& gjk) {
     found = true;
     end = t;
-    reach.pair = {pair.a, pair.b, gjk};
+    toc.pair = {pair.a, pair.b, gjk};
   }
 
   std::array<Pair, 2> children(const Pair& pair) const {
@@ -129,7 +129,7 @@ struct Search {
   // each pair at its own time
   // ----------------------------------------------------------------------------------------
 
-  // Looks at a pair at `time`: whether it is of interest still, with its new time.
+  // Looks at a pair at `time`. Returns whether it is still to be kept, with its new time.
   bool advance(Pair& pair, double time) {
     const Look now = look(pair, time);
     if (now.reached) {
@@ -141,7 +141,7 @@ struct Search {
     return pair.time < end;
   }
 
-  // Later pairs last; of those of one time the one that can be farthest apart.
+  // Later pairs last; of pairs of the same time, the one that can be farthest apart.
   bool later(const Pair& x, const Pair& y) const {
     if (x.time != y.time) return x.time > y.time;
     const double apart_x = std::max(0.0, x.gap) + radii(x), apart_y = std::max(0.0, y.gap) + radii(y);
@@ -156,7 +156,7 @@ struct Search {
       if (advance(pair, time)) queue.push(pair);
     };
     consider({}, 0);
-    // Whatever is found is found at the earliest time of all that wait.
+    // Any contact is found at the earliest time of all waiting pairs.
     while (!queue.empty() && !found && !exhausted()) {
       const Pair top = queue.top();
       queue.pop();
@@ -193,11 +193,11 @@ struct Search {
     Pair last{};                 // the leaves with the smallest step
   };
 
-  // C2A: the gap that is worth opening, from round to round.
+  // C2A: which gaps are worth opening, from round to round.
   double share_of_round(double last_step) const {
     if (study.order == Order::global) return kInfinity;
-    if (reach.rounds > 6 || last_step <= 0.005 * options.interval) return 0;
-    return reach.rounds <= 3 ? 3 : 0.5;
+    if (toc.rounds > 6 || last_step <= 0.005 * options.interval) return 0;
+    return toc.rounds <= 3 ? 3 : 0.5;
   }
 
   void settle(Round& round, const Pair& pair, const Look& now) {
@@ -227,9 +227,9 @@ struct Search {
     double t = 0, last_step = options.interval;
     Pair last{};
     while (t < end && !give_up()) {
-      ++reach.rounds;
+      ++toc.rounds;
       Round round{t, options.interval - t, kInfinity, share_of_round(last_step), last};
-      // The pair that decided the last step may well decide this one: its step leaves less to look at.
+      // The pair that decided the last step may well decide this one: with its step there is less to look at.
       if (leaves(last)) settle(round, last, look(last, t));
       if (!found) go_through(round, {}, look({}, t));
       if (found) return;
@@ -248,12 +248,15 @@ struct Search {
       if (advance(roots, 0)) depth_first(roots);
     }
     if (study.order == Order::global || study.order == Order::controlled) in_rounds();
-    if (given_up && study.order == Order::depth_first) {  // an earlier contact may wait: nothing is proved
-      reach.status = Reach::Status::limit;
-      reach.time = 0;
+    if (given_up &&
+        study.order == Order::depth_first) {  // an earlier contact may still be waiting: nothing is proved
+      toc.status = TimeOfContact::Status::limit;
+      toc.time = 0;
     } else {
-      reach.status = found ? Reach::Status::reached : given_up ? Reach::Status::limit : Reach::Status::clear;
-      reach.time = end;
+      toc.status = found      ? TimeOfContact::Status::reached
+                   : given_up ? TimeOfContact::Status::limit
+                              : TimeOfContact::Status::clear;
+      toc.time = end;
     }
   }
 };
@@ -273,12 +276,12 @@ const char* name_of(Fate fate) {
   return names[static_cast<int>(fate)];
 }
 
-StudyReach study_reach(const HullModel& a, const ca::Motion& motion_a, const HullModel& b,
-                       const ca::Motion& motion_b, const ReachOptions& options,
-                       const StudySearchOptions& study) {
+StudyTimeOfContact study_time_of_contact(const HullModel& a, const ca::Motion& motion_a, const HullModel& b,
+                                         const ca::Motion& motion_b, const TocOptions& options,
+                                         const StudySearchOptions& study) {
   Search search{a, motion_a, b, motion_b, options, study};
   search.run();
-  return search.reach;
+  return search.toc;
 }
 
 }  // namespace fc::hulls

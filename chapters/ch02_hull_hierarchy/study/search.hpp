@@ -1,4 +1,4 @@
-// Hierarchical advancement, one idea at a time: the ancestors' searches and ours, on one hierarchy.
+// Hierarchical advancement, one idea at a time: earlier searches and ours, on the same hierarchy.
 #pragma once
 
 #include <ostream>
@@ -33,7 +33,7 @@ inline std::ostream& operator<<(std::ostream& out, Bound bound) {
 
 // What became of a pair of nodes when it was looked at.
 enum class Fate {
-  clear,     // it does not meet within the interval, or not before what the search knows already
+  clear,     // it does not meet within the interval, or not before the earliest contact so far
   advanced,  // proved clear for longer
   opened,    // too near for its size: its children are next (in the searches by rounds: in this round)
   reached    // two leaves in contact
@@ -55,18 +55,18 @@ struct Visit {
 struct StudySearchOptions {
   Order order = Order::best_first;
   Bound bound = Bound::points;
-  std::vector<Visit>* visits = nullptr;  // each look goes there, if anywhere
+  std::vector<Visit>* visits = nullptr;  // receives each look; null: none
 };
 
-struct StudyReach : Reach {
+struct StudyTimeOfContact : TimeOfContact {
   std::int64_t rounds = 0;  // global, controlled: how often the hierarchy was gone through from the roots
 };
 
-// The first time at which two models come to the target gap: the same as first_reach and clear::search,
-// with the same promise: never late, whatever the options. Kept plain; no time to be saved by storage or
-// lanes.
-StudyReach study_reach(const HullModel& a, const ca::Motion& motion_a, const HullModel& b,
-                       const ca::Motion& motion_b, const ReachOptions& options,
-                       const StudySearchOptions& study);
+// The first time at which two models come to the target gap: the same as time_of_contact and clear::search,
+// with the same guarantee: never late, whatever the options. Kept plain: it saves no time by reusing storage,
+// or by lanes.
+StudyTimeOfContact study_time_of_contact(const HullModel& a, const ca::Motion& motion_a, const HullModel& b,
+                                         const ca::Motion& motion_b, const TocOptions& options,
+                                         const StudySearchOptions& study);
 
 }  // namespace fc::hulls

@@ -33,34 +33,34 @@ std::vector<Cell> cells(const Tally& t) {
           whole(quantile(t.ns, 0.95))};
 }
 
-Tally by_lanes(const Model& model, const std::vector<MotionPair>& motions, const ReachOptions& reach) {
+Tally by_lanes(const Model& model, const std::vector<MotionPair>& motions, const TocOptions& options) {
   Tally tally;
   SearchMemory memory;
   for (const MotionPair& m : motions)
-    tally.ask([&] { return first_reach(model, m.a, model, m.b, reach, memory); });
+    tally.ask([&] { return time_of_contact(model, m.a, model, m.b, options, memory); });
   return tally;
 }
 
-Tally by_study(const HullModel& model, const std::vector<MotionPair>& motions, const ReachOptions& reach,
+Tally by_study(const HullModel& model, const std::vector<MotionPair>& motions, const TocOptions& options,
                Order order, Bound bound) {
   Tally tally;
   for (const MotionPair& m : motions)
-    tally.ask([&] { return study_reach(model, m.a, model, m.b, reach, {order, bound}); });
+    tally.ask([&] { return study_time_of_contact(model, m.a, model, m.b, options, {order, bound}); });
   return tally;
 }
 
 void check_agree(const Tally& tally, const Tally& truth, double slack, const std::string& what) {
   for (std::size_t i = 0; i < truth.answers.size(); ++i) {
-    const Reach &x = tally.answers[i], &y = truth.answers[i];
-    if (x.status == Reach::Status::limit) continue;
+    const TimeOfContact &x = tally.answers[i], &y = truth.answers[i];
+    if (x.status == TimeOfContact::Status::limit) continue;
     if (x.status != y.status || std::abs(x.time - y.time) > slack)
       throw NumericalFailure(what + ": query " + std::to_string(i) + " ends at " + std::to_string(x.time) +
                              " s, not at " + std::to_string(y.time) + " s");
   }
 }
 
-ReachOptions reach_options(double tolerance) {
-  ReachOptions options;
+TocOptions toc_options(double tolerance) {
+  TocOptions options;
   options.tolerance = options.start = tolerance;
   options.target = 0.5 * tolerance;
   options.slack = 0.25 * tolerance;

@@ -1,4 +1,4 @@
-// What the study counts of many queries, and how that becomes rows of a table.
+// What the study counts over many queries, and how that becomes rows of a table.
 #pragma once
 
 #include "ch02_hull_hierarchy/study/parts.hpp"
@@ -7,30 +7,30 @@
 
 namespace fc::hulls {
 
-constexpr int kFewPoints = 64;  // of an inner hull: more cost more than they gain (leaves.csv)
+constexpr int kFewPoints = 64;  // of an inner hull: further ones cost more than they gain (leaves.csv)
 constexpr int kAllPoints = 1'000'000;
 constexpr std::int64_t kMostPairs = 3'000'000;  // of a query: then it counts as given up
 
 // What a search answered, query by query, and what it cost.
 struct Tally {
   std::vector<double> nodes, leaves, rounds, ns;
-  std::vector<Reach> answers;
+  std::vector<TimeOfContact> answers;
   std::int64_t given_up = 0;
 
   template <class Ask>
   void ask(const Ask& search) {
     const Stopwatch watch;
-    const auto reach = search();
+    const auto toc = search();
     ns.push_back(static_cast<double>(watch.ns()));
-    nodes.push_back(static_cast<double>(reach.node_pairs));
-    leaves.push_back(static_cast<double>(reach.leaf_pairs));
-    if constexpr (requires { reach.rounds; }) rounds.push_back(static_cast<double>(reach.rounds));
-    given_up += reach.status == Reach::Status::limit;
-    answers.push_back(reach);
+    nodes.push_back(static_cast<double>(toc.node_pairs));
+    leaves.push_back(static_cast<double>(toc.leaf_pairs));
+    if constexpr (requires { toc.rounds; }) rounds.push_back(static_cast<double>(toc.rounds));
+    given_up += toc.status == TimeOfContact::Status::limit;
+    answers.push_back(toc);
   }
 };
 
-// A median as the count that it is.
+// A median of counts, as a whole number.
 inline std::int64_t whole(double x) {
   return static_cast<std::int64_t>(x);
 }
@@ -42,12 +42,12 @@ std::vector<Cell> with(std::vector<Cell> first, const std::vector<Cell>& more);
 extern const std::vector<Column> kTallyColumns;
 std::vector<Cell> cells(const Tally& tally);
 
-// The search in four lanes that the chapters use, and one of the study's, of every motion.
-Tally by_lanes(const Model& model, const std::vector<MotionPair>& motions, const ReachOptions& reach);
-Tally by_study(const HullModel& model, const std::vector<MotionPair>& motions, const ReachOptions& reach,
+// Runs every motion: by the search in four lanes that the chapters use, or by one of the study's.
+Tally by_lanes(const Model& model, const std::vector<MotionPair>& motions, const TocOptions& options);
+Tally by_study(const HullModel& model, const std::vector<MotionPair>& motions, const TocOptions& options,
                Order order, Bound bound);
 
-// Throws NumericalFailure if a search, where it did not give up, says something else than another one.
+// Throws NumericalFailure if a search, where it did not give up, disagrees with another one.
 void check_agree(const Tally& tally, const Tally& truth, double slack, const std::string& what);
 
 }  // namespace fc::hulls

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
 
-// What stands for a node: the hull of some points, rounded.
+// A node's volume: the hull of some points, rounded.
 struct Rounded {
   std::vector<Vec3> points;
   double radius = 0;  // m
@@ -91,7 +91,7 @@ Rounded volume_of(const HullNode& node, const StudyTreeOptions& options) {
   if (options.volume == Volume::box) volume = box_around(points);
   if (options.volume == Volume::hull && static_cast<int>(points.size()) > options.most_points)
     volume = fewer_points(points, options.most_points);
-  // The rounding of what was computed above.
+  // Covers the rounding of what was computed above.
   if (options.volume != Volume::hull || volume.radius > 0)
     volume.radius += kRounding * (node.center.norm() + node.radius);
   volume.radius += node.slack;

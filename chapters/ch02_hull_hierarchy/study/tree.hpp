@@ -32,12 +32,12 @@ struct StudyTreeOptions {
 };
 
 // The tree of `pieces` (of Leaves::pieces; else the triangles are the leaves, split alike), its inner nodes
-// in other volumes. Leaves stay exact, and each node keeps the ball that the motion bounds ask for: what
-// differs from volume to volume is the gap alone. A hull of too many points keeps those that are farthest
-// along so many directions, and is rounded by how far the others stand out.
+// in other volumes. Leaves stay exact, and each node keeps the ball that the motion bounds need: from volume
+// to volume only the gap differs. A hull of too many points keeps those that are farthest along `most_points`
+// directions, and is rounded by how far the others stand out.
 HullModel build_study_model(const Model& model, const Lists& pieces, const StudyTreeOptions& options);
 
-// Along a unit direction: how far the volume reaches beyond what it holds (m, >= 0), whatever is below.
+// How far a node's volume reaches along a unit direction beyond what it contains (m, >= 0).
 double overhang(const HullModel& volumes, const HullModel& hulls, int node, const Vec3& direction);
 
 // The principal direction along which points extend least: across a patch of a surface.

@@ -10,11 +10,11 @@ namespace fc::lcp::clear {
 namespace {
 
 // ANCHOR: dantzig
-// A sum below this part of the sizes of its terms is round-off, and counts as 0.
+// A sum below this share of the sizes of its terms is round-off, and counts as 0.
 constexpr double kZero = 1e-11;
 // Below this Schur complement (the diagonal of A is 1) a row depends on the basis.
 constexpr double kRank = 1e-13;
-// Two steps that differ by less than this part of themselves are a tie.
+// Two steps that differ by less than this share are a tie.
 constexpr double kTie = 1e-9;
 
 // x with A_CC x = r_C for the rows C of the basis, and 0 elsewhere.
@@ -51,15 +51,15 @@ LcpResult dantzig(const MatX& A_given, const VecX& b_given, int limit) {
     return w[i] < -kZero * (sizes.row(i).dot(z) + b.lpNorm<Eigen::Infinity>());
   };
 
-  // Take the rows in turn, and again those that round-off has moved.
+  // Take the rows in turn, and repeat those that round-off has moved.
   for (int d = 0, done = 0; done < n; d = (d + 1) % n, ++done) {
     while (!in[d] && approaches(d)) {
       done = 0;
-      // Raise z_d by 1, and let the basis answer so that its w stay 0.
+      // Raise z_d by 1; the basis changes so that its w stay 0.
       const VecX dz = raise(d);
       const VecX dw = A * dz, dw_size = sizes * dz.cwiseAbs();
 
-      // Which row stops the drive first? On a tie d, or else the one that comes to its stop fastest.
+      // Which row stops the drive first? On a tie d, or else the one that moves fastest.
       int stop = -1;
       double step = 0, fastest = 0;
       const auto offer = [&](int i, double length, double speed) {
@@ -76,7 +76,7 @@ LcpResult dantzig(const MatX& A_given, const VecX& b_given, int limit) {
           offer(i, std::max(w[i], 0.0) / -dw[i], -dw[i]);
       }
 
-      // Nothing does: then dz is the certificate, if it is not round-off.
+      // No row does: then dz is the certificate, if it is not round-off.
       if (stop < 0) {
         result.certificate = no_solution_certificate({A_given, b_given}, unit.cwiseProduct(dz));
         return finish(result.certificate.size() > 0 ? Status::no_solution : Status::limit);

@@ -1,4 +1,5 @@
-// What accuracy costs: pivoting methods are a point, iterative ones a curve; and what a fixed time buys.
+// What accuracy costs (a point for pivoting methods, a curve for iterative ones), and what a fixed time
+// achieves.
 #include "ch03_impulse_lcp/study/parts.hpp"
 #include "common/program.hpp"
 #include "common/table.hpp"
@@ -10,7 +11,7 @@ constexpr std::array kStudied = {Family::random_spd, Family::spd_1e8, Family::ra
                                  Family::box_heap,   Family::stack,   Family::stack_1e8};
 constexpr std::array kBudgets = {1e5, 1e6, 1e7};  // ns
 
-// An iterative method is stopped by its limit alone.
+// A tolerance that is never reached: only its limit stops an iterative method.
 constexpr double kNever = 1e-300;
 
 // Up to 10,000 sweeps, fewer where n is so large that the picture would take minutes.
@@ -26,7 +27,7 @@ std::vector<int> limits(Method method, Eigen::Index n) {
   return {0};
 }
 
-// What z = 0 leaves: where a method that has not finished stands. At most 1.
+// The residual of z = 0, that of a method that has not finished. At most 1.
 double residual_of_nothing(const KnownProblem& p) {
   return residual(p.lcp(), VecX::Zero(p.b.size()), p.b);
 }
@@ -91,7 +92,7 @@ void study_accuracy(const StudyOptions& options) {
   for (const int n : sizes)
     for (const Family family : kStudied) {
       std::vector<KnownProblem> problems;
-      // The largest cost most, and differ least.
+      // The largest problems cost most, and differ least.
       const int count = n > 96 ? (options.seeds + 1) / 2 : options.seeds;
       for (int seed = 1; seed <= count; ++seed)
         problems.push_back(make_problem(family, n, static_cast<std::uint64_t>(seed)));

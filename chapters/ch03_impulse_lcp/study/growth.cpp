@@ -58,7 +58,7 @@ void study_growth(const StudyOptions& options) {
                                                         {"work_exponent", ""},
                                                         {"time_exponent_ns", ""}});
   constexpr std::array kGrown = {Family::random_spd, Family::box_heap};
-  constexpr int kFrom = 32;  // below, what does not grow weighs too much to fit a power
+  constexpr int kFrom = 32;  // below, constant costs weigh too much to fit a power
   Progress progress("growth", static_cast<std::int64_t>(kGrown.size() * kCurves.size()), options.quiet);
   std::int64_t done = 0;
   for (const Family family : kGrown)
@@ -77,7 +77,7 @@ void study_growth(const StudyOptions& options) {
         const double pivots = median(tally.work), ns = median(tally.ns);
         growth.row({std::string(name(family)), std::int64_t{n}, std::string(name(curve.method)), curve.target,
                     std::int64_t{count}, std::int64_t{tally.solved}, pivots, median(tally.residual), ns});
-        // A run into the limit is no cost of an answer.
+        // Without an answer, there is no cost to count.
         if (n < kFrom || median(tally.residual) > std::max(curve.target, 1e-10)) continue;
         work.add(n, pivots);
         time.add(n, ns);

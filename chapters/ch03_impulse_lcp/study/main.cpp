@@ -10,7 +10,7 @@ int main(int argc, char** argv) {
   StudyProgram program;
   program.purpose =
       "Measures chapter 3's solvers on problems whose answers are known. Each part writes tables into "
-      "--out; columns that end in _ns are times of this machine, or follow from them, all others are the "
+      "--out; columns that end in _ns are times on this machine, or follow from them; all others are the "
       "same in every run:";
   program.example = "build/bin/ch03_study --part growth --rows 128 --out out/ch03/study";
   program.parts = {

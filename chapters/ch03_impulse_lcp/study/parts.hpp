@@ -1,6 +1,5 @@
 // The measurements behind chapter 3's figures: each writes its tables (the executable ch03_study). Columns
-// that end in _ns hold times of this machine, or what follows from them; all others are the same in every
-// run.
+// that end in _ns are times on this machine, or follow from them; all others are the same in every run.
 #pragma once
 
 #include <filesystem>
@@ -30,8 +29,8 @@ struct Timed {
 };
 Timed timed_solve(const Lcp& problem, Method method, const SolveOptions& options);
 
-// Several problems of a kind under one method and options; those that it calls unsuited are left out. `error`
-// is what only a known answer can tell: max |w - w*| / max |b|, velocities over velocities.
+// Several problems of a kind with one method and options; unsuited ones are left out. `error` needs the known
+// answer: max |w - w*| / max |b|, velocities over velocities.
 struct Tally {
   std::vector<double> work, residual, error, ns;
   int solved = 0;
@@ -39,11 +38,11 @@ struct Tally {
   void add(const KnownProblem& problem, const Timed& timed);
 };
 
-// At least half of the values lie at or below it; 0 of none.
+// At least half of the values lie at or below it; 0 if there are none.
 double median(std::vector<double> values);
 
-// What a solve costs, in products A z of 2 n^2 operations: a pivot as much as one, a sweep too; a Newton step
-// n / 3, the elimination of an n by n matrix.
+// The cost of a solve in products A z of 2 n^2 operations: a pivot or a sweep costs one; a Newton step n / 3,
+// the elimination of an n by n matrix.
 double products(Method method, double work, Eigen::Index n);
 
 bool iterative(Method method);

@@ -125,8 +125,7 @@ void write_contact(const std::filesystem::path& out) {
   table.close();
 }
 
-// drive.csv: what is driven is z_2 of the plank. At each value of it the row before is complementary, and that is the
-// whole definition of a drive.
+// drive.csv: a drive of the plank's z_2. At each of its values the row before is complementary; that defines a drive.
 void write_drive(const std::filesystem::path& out) {
   const Impact impact = plank();
   const ImpactProblem problem = assemble(impact.bodies, impact.contacts);
@@ -144,7 +143,7 @@ void write_drive(const std::filesystem::path& out) {
   table.close();
 }
 
-// problems.csv: the rows of the problems that are drawn, and their answers; y where there is none.
+// problems.csv: the rows of the problems that are drawn, and their answers; y where there is no answer.
 void write_problems(const std::filesystem::path& out) {
   TableWriter table(out / "problems.csv", {{"scene", ""},
                                            {"row", ""},

@@ -1,4 +1,4 @@
-// Every method on a few hundred problems: what performance profiles are made of (Dolan and More 2002).
+// Every method on a few hundred problems, for performance profiles (Dolan and More 2002).
 #include "ch03_impulse_lcp/study/parts.hpp"
 #include "common/program.hpp"
 #include "common/table.hpp"
@@ -6,7 +6,7 @@
 namespace fc::lcp {
 namespace {
 
-// Symmetric positive semidefinite, mixed active sets: what all methods are made for.
+// Symmetric positive semidefinite, mixed active sets: within the class of every method.
 constexpr std::array kProfiled = {Family::random_spd, Family::spd_1e4,        Family::spd_1e8,
                                   Family::degenerate, Family::rank_deficient, Family::duplicate_contacts,
                                   Family::stack,      Family::stack_1e4,      Family::stack_1e8,

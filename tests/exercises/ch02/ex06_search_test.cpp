@@ -14,7 +14,7 @@ namespace {
 using fc::Vec3;
 using fc::ca::Motion;
 using fc::hulls::HullModel;
-using fc::hulls::Reach;
+using fc::hulls::TimeOfContact;
 using fc::mine::FirstContact;
 using fc::mine::SearchOptions;
 
@@ -98,10 +98,10 @@ struct Two {
     return fc::mine::search(a, motion_a, b, motion_b, options, pieces);
   }
   // Chapter 2's fast search.
-  Reach fast(double interval) const {
-    fc::hulls::ReachOptions options;
+  TimeOfContact fast(double interval) const {
+    fc::hulls::TocOptions options;
     options.interval = interval;
-    return fc::hulls::first_reach(model_a, motion_a, model_b, motion_b, options);
+    return fc::hulls::time_of_contact(model_a, motion_a, model_b, motion_b, options);
   }
   // m, the gap of all pairs of pieces.
   double gap(double t) const {
@@ -170,8 +170,8 @@ TEST(Ex06Search, FindsTheFirstOfManyContacts) {
   for (int seed = 0; seed < 40; ++seed) {
     const Two two = clouds(seed);
     const FirstContact found = two.ask(options_of(2));
-    const Reach truth = two.fast(2);
-    const bool meets = truth.status == Reach::Status::reached;
+    const TimeOfContact truth = two.fast(2);
+    const bool meets = truth.status == TimeOfContact::Status::reached;
     ASSERT_EQ(found.status == FirstContact::Status::contact, meets)
         << says(found) << ", but chapter 2's fast search says `" << truth.status << "` at " << truth.time
         << " s (clouds " << seed << ")";
@@ -200,7 +200,7 @@ TEST(Ex06Search, HullsThatOverlapAreOpened) {
 TEST(Ex06Search, LooksAtNothingBeyondTheContact) {
   for (int seed = 0; seed < 10; ++seed) {
     const Two two = clouds(seed);
-    const Reach truth = two.fast(2);
+    const TimeOfContact truth = two.fast(2);
     const FirstContact found = two.ask(options_of(2));
     ASSERT_GT(found.looks, 1) << "looks: the roots alone tell nothing of 144 pairs of pieces";
     for (const double duration : record.duration)

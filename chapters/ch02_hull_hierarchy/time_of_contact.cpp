@@ -1,4 +1,4 @@
-#include "ch02_hull_hierarchy/first_reach.hpp"
+#include "ch02_hull_hierarchy/time_of_contact.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,27 +7,27 @@
 #include "ch01_convex_advancement/rounding.hpp"
 #include "ch02_hull_hierarchy/box_steps.hpp"
 #include "ch02_hull_hierarchy/model_distance.hpp"
-#include "ch02_hull_hierarchy/reach_by_pieces.hpp"
 #include "ch02_hull_hierarchy/steps.hpp"
+#include "ch02_hull_hierarchy/toc_by_pieces.hpp"
 
 namespace fc::hulls {
 namespace {
 
-// A pair with so much room, as a part of its nodes' radii, is advanced again rather than opened: most of what
-// it was feared to lose it still has. Consequence: half the pairs where bodies turn fast side by side, the
-// same elsewhere.
+// A pair with more room than this share of its nodes' radii is advanced again rather than opened: it still
+// has most of what the bound let it lose. Consequence: half the pairs where bodies turn fast side by side,
+// the same elsewhere.
 constexpr float kFarApart = 0.1f;
 
-constexpr int kLooksAtLast = 8;  // two leaves that meet do so after two or three advances, as a rule
+constexpr int kLooksAtLast = 8;  // two leaves that meet usually do so after two or three advances
 constexpr double kClear = std::numeric_limits<double>::infinity();
 
-// Of a step in double precision: its own rounding.
+// The share of a step in double precision that covers its own rounding.
 constexpr double kShorter = 1e-12;
 
-// The queue's top: earliest; of those that stand at the same time the one with the least `apart`, which leads
-// straight down to leaves instead of opening every pair of that time; then the order of the trees.
+// The queue's top: the earliest pair; among pairs of the same time the one with the least `apart`, which
+// leads straight down to leaves instead of opening every pair of that time; then the order of the trees.
 struct Later {
-  bool operator()(const Waiting& x, const Waiting& y) const {
+  bool operator()(const WaitingPair& x, const WaitingPair& y) const {
     if (x.time != y.time) return x.time > y.time;
     if (x.apart != y.apart) return x.apart > y.apart;
     return x.a != y.a ? x.a > y.a : x.b > y.b;
@@ -39,14 +39,14 @@ struct Search {
   const ca::Motion& motion_a;
   const Model& b;
   const ca::Motion& motion_b;
-  const ReachOptions& options;
+  const TocOptions& options;
   SearchMemory& memory;
-  std::vector<Waiting>& queue = memory.queue;
-  Reach reach{};
+  std::vector<WaitingPair>& queue = memory.queue;
+  TimeOfContact toc{};
   StepLimits limits{};
   ca::PairPose pose{motion_a, motion_b, 0};
   double pose_time = -1;
-  double horizon = kClear;  // s, nothing that is clear until here is of interest
+  double horizon = kClear;  // s, a pair that is clear until here need not be kept
   PairViews views{};
 
   void look_from(double t) {
@@ -63,8 +63,8 @@ struct Search {
   // `gap` (m) along n. Between them the gap that is proved is concave in time, so it stays above the straight
   // line from `gap` to the target: the claim of the certificate's row.
   double advanced(double t, double step, const Vec3& n, double gap, NodeId node_a, NodeId node_b) {
-    ++reach.advances;
-    if (t == 0) reach.start_gap = std::min(reach.start_gap, gap);
+    ++toc.advances;
+    if (t == 0) toc.start_gap = std::min(toc.start_gap, gap);
     const double remaining = ca::remaining_above(t, options.interval);
     if (memory.certificate != nullptr) {
       const BoxQuad& quad_a = a.boxes.quads[node_a >> 2];
@@ -100,7 +100,7 @@ struct Search {
                      Vec3(steps.normal.x[lane], steps.normal.y[lane], steps.normal.z[lane]));
     }
   };
-  Look look_at(const BoxQuad& quad, bool of_a, const Waiting& pair) const {
+  Look look_at(const BoxQuad& quad, bool of_a, const WaitingPair& pair) const {
     const OpenedView& view = of_a ? views.a : views.b;
     const double sign = of_a ? 1 : -1;
     const Vec3 normal = Vec3(pair.normal[0], pair.normal[1], pair.normal[2]).normalized();
@@ -110,14 +110,14 @@ struct Search {
   }
 
   // Advances a pair of nodes that is far apart for its size. True: it still is, and waits again.
-  bool advance_again(const Waiting& pair) {
+  bool advance_again(const WaitingPair& pair) {
     const float radii = a.boxes.radius(pair.a) + b.boxes.radius(pair.b);
     if (pair.apart - radii - limits.target <= kFarApart * radii) return false;
     const bool of_a = a.boxes.radius(pair.a) >= b.boxes.radius(pair.b);
     const NodeId node = of_a ? pair.a : pair.b;
     const Look look = look_at((of_a ? a : b).boxes.quads[node >> 2], of_a, pair);
     const int lane = node & 3;
-    ++reach.node_pairs;
+    ++toc.node_pairs;
     if (look.steps.gap[lane] - limits.target <= kFarApart * radii) return false;
     // At the start a gap between target and tolerance is not advanced: waiting at the same time has no end.
     if (!(ca::sum_below(pair.time, look.steps.time[lane]) > pair.time)) return false;
@@ -129,7 +129,7 @@ struct Search {
   }
 
   // Opens the larger node of a pair that is not two leaves.
-  void open(const Waiting& pair) {
+  void open(const WaitingPair& pair) {
     const bool leaf_a = a.boxes.child(pair.a) < 0, leaf_b = b.boxes.child(pair.b) < 0;
     const bool open_a = leaf_b || (!leaf_a && a.boxes.radius(pair.a) >= b.boxes.radius(pair.b));
     const bool other_is_leaf = open_a ? leaf_b : leaf_a;
@@ -138,7 +138,7 @@ struct Search {
     const float other_radius = open_a ? b.boxes.radius(pair.b) : a.boxes.radius(pair.a);
     const Look look = look_at(quad, open_a, pair);
     for (int lane = 0; lane < 4 && quad.child[lane] != 0; ++lane) {
-      ++reach.node_pairs;
+      ++toc.node_pairs;
       const NodeId child_a = open_a ? 4 * below + lane : pair.a, child_b = open_a ? pair.b : 4 * below + lane;
       const double gap = look.steps.gap[lane] - (a.radius + b.radius);
       const Vec3 n = look.normal(lane);
@@ -151,7 +151,7 @@ struct Search {
     }
   }
 
-  // Two leaves are held against the plane of their boxes, point by point: a longer step, with its gap, if
+  // Tries two leaves point by point along the normal of their boxes: gives a longer step, with its gap, if
   // there is one.
   void step_points(double t, const Vec3& n, NodeId node_a, NodeId node_b, double& step, double& gap) const {
     const ca::Convex leaf_a = a.leaf(~a.boxes.child(node_a)), leaf_b = b.leaf(~b.boxes.child(node_b));
@@ -167,14 +167,14 @@ struct Search {
 
   // Looks at two leaves at the time until which they are known to be clear. True: they have reached the
   // target.
-  bool look(const Waiting& pair) {
+  bool look(const WaitingPair& pair) {
     const int id_a = ~a.boxes.child(pair.a), id_b = ~b.boxes.child(pair.b);
     const ca::Convex leaf_a = a.leaf(id_a), leaf_b = b.leaf(id_b);
     ca::GjkResult g = ca::distance(leaf_a, leaf_b, pose, {options.slack / 4, 0.05, 128});
     if (g.lower <= options.target) g = leaf_distance(leaf_a, leaf_b, pose, options.tolerance);
-    ++reach.leaf_pairs;
+    ++toc.leaf_pairs;
     const double room = g.lower - options.target;
-    // Leaves that overlap by rounding have no upper bound to speak of: then the lower one decides.
+    // Leaves that overlap by rounding have no meaningful upper bound: then the lower one decides.
     const bool at_target = pair.time > 0 ? g.upper <= options.target + options.slack ||
                                                g.lower <= options.target + 0.5 * options.slack
                                          : g.upper <= options.start;
@@ -187,10 +187,10 @@ struct Search {
           step, whole_step(motion_a, leaf_a, motion_b, leaf_b, g.normal, pair.time, options.interval, room));
       step *= 1 - kShorter;
     }
-    // No room, or a step below the rounding of the times that the caller adds this to: as far as it goes.
+    // No room, or a step below the rounding of the caller's times: the pair cannot be advanced any further.
     if (!(step > std::numeric_limits<double>::epsilon() * options.interval)) {
-      reach.pair = {id_a, id_b, g};
-      reach.time = pair.time;
+      toc.pair = {id_a, id_b, g};
+      toc.time = pair.time;
       return true;
     }
     wait(advanced(pair.time, step, g.normal, g.lower, pair.a, pair.b), static_cast<float>(g.lower), g.normal,
@@ -198,10 +198,10 @@ struct Search {
     return false;
   }
 
-  // The leaves that met in the query before often meet again, a little later: when they would is an upper
-  // bound of the first contact, and what is clear until then need not wait.
+  // The leaves that met in the query before often meet again, a little later. The time of that contact is an
+  // upper bound of the first one, and a pair that is clear until then need not be kept.
   void begin_with_last() {
-    Waiting last{0, 0, {1, 0, 0}, memory.last_a, memory.last_b};
+    WaitingPair last{0, 0, {1, 0, 0}, memory.last_a, memory.last_b};
     queue.push_back(last);
     for (int looks = 0; looks < kLooksAtLast && !queue.empty() && horizon == kClear; ++looks) {
       last = queue.front();
@@ -221,11 +221,11 @@ struct Search {
     wait(0, 0, Vec3::UnitX(), 0, 0);
     // ANCHOR: run
     while (!queue.empty()) {
-      const Waiting top = queue.front();
+      const WaitingPair top = queue.front();
       // Whether the two touch at the start is always answered.
-      if (top.time > 0 && reach.node_pairs + reach.leaf_pairs >= options.max_pairs) {
-        reach.status = Reach::Status::limit;
-        reach.time = top.time;
+      if (top.time > 0 && toc.node_pairs + toc.leaf_pairs >= options.max_pairs) {
+        toc.status = TimeOfContact::Status::limit;
+        toc.time = top.time;
         return;
       }
       std::pop_heap(queue.begin(), queue.end(), Later{});
@@ -235,32 +235,32 @@ struct Search {
       if (!leaves) {
         if (!advance_again(top)) open(top);
       } else if (look(top)) {
-        reach.status = Reach::Status::reached;
+        toc.status = TimeOfContact::Status::reached;
         memory.last_a = top.a;
         memory.last_b = top.b;
         return;
       }
     }
     // ANCHOR_END: run
-    reach.status = Reach::Status::clear;
-    reach.time = options.interval;
+    toc.status = TimeOfContact::Status::clear;
+    toc.time = options.interval;
   }
 };
 
 }  // namespace
 
-Reach first_reach(const Model& a, const ca::Motion& motion_a, const Model& b, const ca::Motion& motion_b,
-                  const ReachOptions& options, SearchMemory& memory) {
-  if (memory.pieces != nullptr) return reach_by_pieces(a, motion_a, b, motion_b, options, *memory.pieces);
+TimeOfContact time_of_contact(const Model& a, const ca::Motion& motion_a, const Model& b,
+                              const ca::Motion& motion_b, const TocOptions& options, SearchMemory& memory) {
+  if (memory.pieces != nullptr) return toc_by_pieces(a, motion_a, b, motion_b, options, *memory.pieces);
   Search search{a, motion_a, b, motion_b, options, memory};
   search.run();
-  return search.reach;
+  return search.toc;
 }
 
-Reach first_reach(const Model& a, const ca::Motion& motion_a, const Model& b, const ca::Motion& motion_b,
-                  const ReachOptions& options) {
+TimeOfContact time_of_contact(const Model& a, const ca::Motion& motion_a, const Model& b,
+                              const ca::Motion& motion_b, const TocOptions& options) {
   SearchMemory memory;
-  return first_reach(a, motion_a, b, motion_b, options, memory);
+  return time_of_contact(a, motion_a, b, motion_b, options, memory);
 }
 
 }  // namespace fc::hulls
