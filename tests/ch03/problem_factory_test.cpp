@@ -59,7 +59,7 @@ TEST_P(Factory, PlantedAnswerIsTheAnswer) {
 TEST(FactoryHeaps, BoxesAreRedundantBallsAreNot) {
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
     const auto rank = [&](Family family) {
-      const VecX s = Eigen::BDCSVD<MatX>(make_problem(family, 96, seed).A).singularValues();
+      const VecX s = Eigen::JacobiSVD<MatX>(make_problem(family, 96, seed).A).singularValues();
       return (s.array() > 1e-13 * s[0]).count();
     };
     EXPECT_EQ(rank(Family::ball_heap), 96);
@@ -224,7 +224,7 @@ TEST_P(Factory, MatrixIsWhatIsClaimed) {
       return;
     }
     if (p.rank == 0) return;
-    const VecX s = Eigen::BDCSVD<MatX>(A).singularValues();
+    const VecX s = Eigen::JacobiSVD<MatX>(A).singularValues();
     const Eigen::Index rank = (s.array() > 1e-15 * n * s[0]).count();
     if (p.family == Family::ball_heap || p.family == Family::box_heap) {
       EXPECT_LE(rank, p.rank);
@@ -232,7 +232,7 @@ TEST_P(Factory, MatrixIsWhatIsClaimed) {
       EXPECT_EQ(rank, p.rank);
     }
     if (p.condition > 0) {
-      const VecX given = Eigen::BDCSVD<MatX>(p.A).singularValues();
+      const VecX given = Eigen::JacobiSVD<MatX>(p.A).singularValues();
       EXPECT_NEAR(given[0] / given[given.size() - 1] / p.condition, 1, 0.1);
     }
   });
