@@ -141,8 +141,8 @@ TEST(Ex06Dantzig, AgreesWithTheFastOne) {
         const LcpResult got = dantzig(p.A, p.b, 0), fast = fc::lcp::solve_dantzig(p.lcp());
         ASSERT_EQ(got.status, fast.status)
             << "family " << family << ", " << n << " rows, seed " << seed
-            << ": the chapter's fast Dantzig ends so; did a tie, or a row that depends on "
-               "the basis, lead yours astray?";
+            << ": the chapter's fast Dantzig ends so; did a tie, a row that depends on the basis, or one "
+               "that still waits for its turn lead yours astray?";
         if (got.status != Status::solved) continue;
         ASSERT_LE((fc::lcp::evaluate(p.A, p.b, got.z) - fast.w).lpNorm<Eigen::Infinity>(),
                   1e-9 * p.b.lpNorm<Eigen::Infinity>())
