@@ -114,10 +114,12 @@ TEST(Ex06Dantzig, OtherUnits) {
   const MatX A{{1.5, -0.5}, {-0.5, 1.5}};
   const VecX b{{-3, -1.5}};
   for (const double factor : {std::ldexp(1.0, -40), std::ldexp(1.0, 40)}) {
-    const LcpResult slow = expect_solved(A, factor * b, "velocities in another unit");
+    const LcpResult slow =
+        expect_solved(A, factor * b, "velocities in another unit: compare w with b, not with 1e-9");
     EXPECT_NEAR(slow.z[0] / factor, 21. / 8, 1e-12)
         << "N s: slow bodies are not bodies at rest; compare w with b, not with 1e-9";
-    const LcpResult light = expect_solved(factor * A, b, "masses in another unit");
+    const LcpResult light =
+        expect_solved(factor * A, b, "masses in another unit: what is small depends on the unit of A");
     EXPECT_NEAR(light.z[0] * factor, 21. / 8, 1e-12) << "N s: 'small' depends on the unit of A";
   }
 }
