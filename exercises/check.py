@@ -136,6 +136,13 @@ def advice(exercise: Exercise, state: State, following: Exercise | None) -> str:
     return "\n".join(lines + ([f"next, {following}: {following.task}"] if following else []))
 
 
+def next_of(exercise: Exercise, exercises: list[Exercise], root: Path) -> Exercise | None:
+    """What to write after an exercise: after a piece the next piece, in the order of the chapters' texts."""
+    after = exercises[exercises.index(exercise) + 1:]
+    own = [later for later in after if pieces.is_piece(later, root)] if pieces.is_piece(exercise, root) else []
+    return next(iter(own or after), None)
+
+
 def show(exercise: Exercise, state: State, advised: str) -> None:
     print(f"{str(exercise):<10} {exercise.name:<24} {state.text}", flush=True)
     for line in [*state.detail.splitlines(), *advised.splitlines()]:
@@ -183,8 +190,7 @@ def main() -> int:
     for exercise in chosen:
         state = check(exercise, options.build, options.root, options.limit)
         done += state.done
-        after = exercises[exercises.index(exercise) + 1:]
-        show(exercise, state, advice(exercise, state, after[0] if after and len(chosen) == 1 else None))
+        show(exercise, state, advice(exercise, state, next_of(exercise, exercises, options.root) if len(chosen) == 1 else None))
     if len(chosen) == 1:
         name_program(chosen[0], options.build)
     print(f"{done} of {len(chosen)} exercise{'s' if len(chosen) > 1 else ''} done")

@@ -11,6 +11,9 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "exercises"))
+import building  # noqa: E402
+import check  # noqa: E402
 
 PROJECT = """
 cmake_minimum_required(VERSION 3.22)
@@ -30,7 +33,7 @@ fc_add_exercise(ch08 ex01_triple)
 add_executable(chapter chapter.cpp)
 add_executable(ch08_triples program.cpp)
 """
-HEADER = "#pragma once\nnamespace fc::exercises {\ndouble twice(double x);  // 2 x\n}\n"
+HEADER = "#pragma once\nnamespace fc::exercises {{\ndouble twice(double x);  // 2 x\n}}\n"
 STUB = '#include "{name}.hpp"\n\n#include "common/todo.hpp"\n\nnamespace fc::exercises {{\ndouble twice(double x) {{ FC_TODO("7.1"); }}\n}}\n'
 TESTS = """
 #include <gtest/gtest.h>
@@ -136,6 +139,13 @@ class CheckTest(unittest.TestCase):
     def mine(self) -> set[str]:
         return {file.name for file in (self.root / "build/mine").glob("*")}
 
+    def test_after_a_piece_comes_the_next_piece(self):
+        exercises = building.known_exercises(ROOT)
+        after = {str(exercise): str(check.next_of(exercise, exercises, ROOT)) for exercise in exercises}
+        self.assertEqual(after["ch03/ex06"], "ch04/ex06")
+        self.assertEqual(after["ch03/ex01"], "ch03/ex02")
+        self.assertEqual(after["ch06/ex01"], "ch06/ex02")  # the last piece: what is left are variants
+
     def test_a_piece_that_passes_is_handed_over(self):
         piece = self.root / "exercises/ch08/ex01_triple.cpp"
         self.addCleanup(lambda: piece.write_text(PIECE_STUB))
@@ -217,7 +227,7 @@ class CheckTest(unittest.TestCase):
         self.assertIn("does not compile", out)
         self.assertRegex(out, r"exercises/ch07/ex01_double\.cpp:4:\d+: .*y")
         self.write("double unrelated;\n")
-        self.assertRegex(self.check("ch07/ex01")[1], r"does not compile\n +exercises/ch07/ex01_double.cpp: twice.* is declared")
+        self.assertRegex(self.check("ch07/ex01")[1], r"does not compile\n +exercises/ch07/ex01_double.cpp: fc::exercises::twice.* is declared")
         self.write("this is no C++\n")
         stub = self.build / "stubs/ch07/ex01_double.cpp"
         self.assertEqual(stub.read_text(), STUB.format(name="ex01_double"))  # the proof has a copy of its own
@@ -308,6 +318,7 @@ class CheckTest(unittest.TestCase):
         self.solve("return 2 * x;")
         self.assertIn("building your file …\n", self.run_tool("check", "ch07/ex01").stderr)
         self.assertEqual(self.run_tool("check", "ch07/ex01").stderr, "")
+        self.assertNotIn(".gch", building.what_is_built("CMakeFiles/fc_precompiled.dir/cmake_pch.hxx.gch"))  # in a learner's words
 
     def test_see(self):
         done = self.run_tool("see", "ch07/ex01")

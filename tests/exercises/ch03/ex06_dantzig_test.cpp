@@ -114,10 +114,12 @@ TEST(Ex06Dantzig, OtherUnits) {
   const MatX A{{1.5, -0.5}, {-0.5, 1.5}};
   const VecX b{{-3, -1.5}};
   for (const double factor : {std::ldexp(1.0, -40), std::ldexp(1.0, 40)}) {
-    const LcpResult slow = expect_solved(A, factor * b, "velocities in another unit");
+    const LcpResult slow =
+        expect_solved(A, factor * b, "velocities in another unit: compare w with b, not with 1e-9");
     EXPECT_NEAR(slow.z[0] / factor, 21. / 8, 1e-12)
         << "N s: slow bodies are not bodies at rest; compare w with b, not with 1e-9";
-    const LcpResult light = expect_solved(factor * A, b, "masses in another unit");
+    const LcpResult light =
+        expect_solved(factor * A, b, "masses in another unit: what is small depends on the unit of A");
     EXPECT_NEAR(light.z[0] * factor, 21. / 8, 1e-12) << "N s: 'small' depends on the unit of A";
   }
 }
@@ -141,8 +143,8 @@ TEST(Ex06Dantzig, AgreesWithTheFastOne) {
         const LcpResult got = dantzig(p.A, p.b, 0), fast = fc::lcp::solve_dantzig(p.lcp());
         ASSERT_EQ(got.status, fast.status)
             << "family " << family << ", " << n << " rows, seed " << seed
-            << ": the chapter's fast Dantzig ends so; did a tie, or a row that depends on "
-               "the basis, lead yours astray?";
+            << ": the chapter's fast Dantzig ends so; did a tie, a row that depends on the basis, or one "
+               "that still waits for its turn lead yours astray?";
         if (got.status != Status::solved) continue;
         ASSERT_LE((fc::lcp::evaluate(p.A, p.b, got.z) - fast.w).lpNorm<Eigen::Infinity>(),
                   1e-9 * p.b.lpNorm<Eigen::Infinity>())
