@@ -109,7 +109,20 @@ def check(exercise: Exercise, folder: Path, root: Path, limit: float) -> State:
     return state
 
 
+def is_begun(exercise: Exercise, root: Path) -> bool:
+    """False if git knows the file as it is, with its FC_TODO: then nothing has to be built to say so."""
+    git = ["git", "-C", root]
+    try:
+        known = subprocess.run([*git, "ls-files", "--error-unmatch", exercise.file], capture_output=True, check=False).returncode == 0
+        changed = subprocess.run([*git, "diff", "--quiet", "HEAD", "--", exercise.file], capture_output=True, check=False).returncode != 0
+    except OSError:  # no git here
+        return True
+    return not known or changed or "FC_TODO(" not in (root / exercise.file).read_text(encoding="utf-8", errors="replace")
+
+
 def tested(exercise: Exercise, folder: Path, root: Path, limit: float) -> State:
+    if not is_begun(exercise, root):
+        return State(NOT_STARTED)
     kept = last_result.recall(exercise, folder, root)
     if kept:
         return State(**{**kept, "recalled": True})

@@ -190,6 +190,19 @@ class CheckTest(unittest.TestCase):
         self.assertEqual(code, 1)
         self.assertEqual(out, f"ch07/ex01  ex01_double              not started\n           {TASK}\n0 of 1 exercise done\n{NONE}\n")
 
+    def test_what_is_as_it_was_committed_is_not_built(self):
+        git = ["git", "-C", self.root, "-c", "user.name=one", "-c", "user.email=one@example.org"]
+        self.addCleanup(lambda: shutil.rmtree(self.root / ".git"))
+        for command in (["init", "--quiet"], ["add", "exercises"], ["commit", "--quiet", "--message", "stubs"]):
+            subprocess.run([*git, *command], check=True)
+        asked = self.run_tool("check", "ch07/ex01")
+        self.assertIn("not started", asked.stdout)
+        self.assertEqual(asked.stderr, "")
+        self.solve("return x * x;")
+        self.assertIn("1/3 tests pass", self.check("ch07/ex01")[1])
+        subprocess.run([*git, "commit", "--quiet", "--all", "--message", "mine"], check=True)
+        self.assertIn("1/3 tests pass", self.check("ch07/ex01")[1])
+
     def test_some_tests_pass(self):
         self.solve("return x * x;")
         code, out = self.check("ch07/ex01")
