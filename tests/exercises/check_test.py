@@ -60,7 +60,7 @@ PIECE = {
         "// Caught by: Triple.OfTwo\n<<<<\ndouble triple(double x) { return 3 * x; }\n====\ndouble triple(double x) { return 3 + x; }\n>>>>\n",
     "program.cpp": '#include <cstdio>\nint main(int count, char** words) { for (int k = 1; k < count; ++k) std::puts(words[k]); }\n',
 }
-NONE = "the bunnies collide on 0 of 1 pieces of your own; the first is 8.1"
+NONE = "the bunnies collide on 0 of 1 pieces of yours; the first is 8.1"
 TASK = "write exercises/ch07/ex01_double.cpp; the task is 7.1 in exercises/ch07/README.md"
 DEMO = """
 #include <cstdio>
@@ -154,7 +154,7 @@ class CheckTest(unittest.TestCase):
         shutil.copy(self.root / "solutions/ch08/ex01_triple.cpp", piece)
         code, out = self.check("ch08")
         self.assertEqual(code, 0, out)
-        self.assertTrue(out.splitlines()[-1].startswith("the bunnies collide on 1 of 1 pieces of your own: build/bin/ch04"), out)
+        self.assertTrue(out.splitlines()[-1].startswith("the bunnies collide on 1 of 1 pieces of yours: build/bin/ch04"), out)
         self.assertEqual(self.mine(), {"ch08_ex01.so", "ch08_ex01.source"})
         self.assertEqual((self.root / "build/mine/ch08_ex01.source").read_text(), f"{piece.resolve()}\n{piece.read_text()}")
         with self.no_cmake() as environment:  # it is there, and what it was made from has not changed
