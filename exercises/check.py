@@ -110,14 +110,12 @@ def check(exercise: Exercise, folder: Path, root: Path, limit: float) -> State:
 
 
 def is_begun(exercise: Exercise, root: Path) -> bool:
-    """False if git knows the file as it is, with its FC_TODO: then nothing has to be built to say so."""
-    git = ["git", "-C", root]
+    """False for a file with an FC_TODO that is as it was committed (copy_stub.cmake has the same rule): nothing need be built."""
     try:
-        known = subprocess.run([*git, "ls-files", "--error-unmatch", exercise.file], capture_output=True, check=False).returncode == 0
-        changed = subprocess.run([*git, "diff", "--quiet", "HEAD", "--", exercise.file], capture_output=True, check=False).returncode != 0
+        status = subprocess.run(["git", "-C", root, "status", "--porcelain", "--ignored", "--", exercise.file], capture_output=True, check=False)
     except OSError:  # no git here
         return True
-    return not known or changed or "FC_TODO(" not in (root / exercise.file).read_text(encoding="utf-8", errors="replace")
+    return status.returncode != 0 or status.stdout != b"" or "FC_TODO(" not in (root / exercise.file).read_text(encoding="utf-8", errors="replace")
 
 
 def tested(exercise: Exercise, folder: Path, root: Path, limit: float) -> State:
