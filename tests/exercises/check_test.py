@@ -364,6 +364,9 @@ class CheckTest(unittest.TestCase):
             return {line.split()[2] for line in listed.splitlines() if " - " in line}
 
         self.assertEqual(failing(), set())
+        for mistake, code in (("square", 1), ("nobody", 0)):  # a mutant that is none fails no test, so its CTest test fails
+            done = subprocess.run([build / "bin/ch07_ex01_mutants"], env={**os.environ, "FC_MUTANT": mistake}, capture_output=True, check=False)
+            self.assertEqual(done.returncode, code, mistake)
         test = self.root / "tests/exercises/ch07/ex01_double_test.cpp"
         mutant = self.root / "tests/exercises/ch07/mutants/ex01_double.square.cpp"
         solution = self.root / "solutions/ch07/ex01_double.cpp"
