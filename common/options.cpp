@@ -2,6 +2,7 @@
 #include "common/options.hpp"
 
 #include <CLI/CLI.hpp>
+#include <charconv>
 
 #include "common/errors.hpp"
 #include "common/scene_keys.hpp"
@@ -39,6 +40,23 @@ void refuse_idle(const CLI::App& app, int chapter) {
   }
 }
 
+// The port that --live or --live=PORT names; 0 = any free one.
+int port_of(const std::string& text) {
+  int port = -1;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
+  if (error != std::errc() || end != text.data() + text.size() || port < 0 || port > 65535)
+    throw InputError("--live=" + one_line(text) +
+                     ": a port is a whole number from 1 to 65535; leave it out, and a free one is taken");
+  return port;
+}
+
+// A live scene writes no results, and runs until it is stopped.
+void refuse_beside_live(const CLI::App& app) {
+  for (const char* other : {"--explain", "--sweep", "--out", "--poses", "--clear", "--mine"})
+    if (app.get_option(other)->count() > 0)
+      throw InputError(std::string(other) + " has no effect beside --live; leave one of them out");
+}
+
 }  // namespace
 
 const std::vector<ChapterOption>& chapter_options() {
@@ -46,6 +64,7 @@ const std::vector<ChapterOption>& chapter_options() {
       {"--certificate", 1, 2, "writes certificate.csv, every advance of a query"},
       {"--poses", 4, all_later_chapters, "writes poses.csv, every body at every frame"},
       {"--mesh-path", 2, all_later_chapters, "names folders in which meshes are looked for"},
+      {"--live", 4, all_later_chapters, "opens the scene to a browser while it runs"},
   };
   return options;
 }
@@ -53,7 +72,7 @@ const std::vector<ChapterOption>& chapter_options() {
 Options parse_options(int argc, char** argv, int chapter, const std::string& purpose,
                       const std::string& example) {
   Options options;
-  std::vector<std::string> out, sweep, mesh_path;
+  std::vector<std::string> out, sweep, mesh_path, live;
   CLI::App app(purpose);
   app.footer("Example:\n  " + example);
   app.add_option("SCENE", options.scene, "The scene to run, a YAML file")->required()->type_name("FILE");
@@ -70,6 +89,8 @@ Options parse_options(int argc, char** argv, int chapter, const std::string& pur
       ->disable_flag_override();
   app.add_flag("--poses", options.poses, "Write poses.csv: every body at every frame (chapter 4 on)")
       ->disable_flag_override();
+  app.add_flag("--live{0}", live,
+               "Open the scene to a browser while it runs; print the page's address (chapter 4 on)");
   app.add_flag("--clear", options.clear, "Run on the text's clear versions instead of the fast ones")
       ->disable_flag_override();
   app.add_flag("--mine", options.mine, "Like --clear, but on your own pieces where they pass ./run check")
@@ -79,11 +100,18 @@ Options parse_options(int argc, char** argv, int chapter, const std::string& pur
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
     options.help = app.help();
+    const std::string as_declared = "--live{0}    ";  // CLI11's way to say that a flag may have a value
+    if (const std::size_t at = options.help.find(as_declared); at != std::string::npos)
+      options.help.replace(at, as_declared.size(), "--live[=PORT]");
     return options;
   } catch (const CLI::ParseError& error) {
     throw InputError(one_line(error.what()) + "; see --help");
   }
   refuse_idle(app, chapter);
+  if (!live.empty()) {
+    refuse_beside_live(app);
+    options.live = port_of(once("--live", live, "there is one page"));
+  }
   options.sweep = once("--sweep", sweep, "a run sweeps one key: sweep one, and --set the other");
   if (!out.empty()) {
     options.out = once("--out", out, "the results go into one folder");

@@ -15,7 +15,8 @@ struct Options {
   std::string sweep;                             // --sweep; empty = none
   std::vector<std::filesystem::path> mesh_path;  // --mesh-path, in order
   bool explain = false, certificate = false, poses = false, quiet = false, clear = false, mine = false;
-  std::string help;  // the text for --help; empty = not asked for
+  std::optional<int> live;  // --live: the port; 0 = any free one
+  std::string help;         // the text for --help; empty = not asked for
 };
 
 // An option that has an effect in some chapters only: in all others it is refused.

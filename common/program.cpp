@@ -116,6 +116,10 @@ std::vector<PieceUse> pieces_for(const Options& options, const Chapter& chapter)
 
 int run_with(const Options& options, const Chapter& chapter) {
   const SceneSource source{options.scene, options.sets, options.mesh_path, chapter.number};
+  if (options.live) {
+    if (!chapter.live) throw InputError("--live: this program has no live scene; leave it out");
+    return chapter.live(source, *options.live, options.quiet);
+  }
   // In a sweep the scene is complete, and is checked, only with a swept value in it.
   Sweep sweep;
   SceneSource first = source;

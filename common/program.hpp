@@ -100,6 +100,14 @@ struct Chapter {
   // read); called before a sweep begins. May be empty.
   std::function<void(const Scene&)> check = {};
   std::vector<PieceSlot> pieces = {};  // of its clear versions; none: there is no --clear and no --mine
+  // --live: lets a page in a browser touch the scene while it runs; returns the exit code. A chapter reads the source into its
+  // live::Simulation and hands that to the server:
+  //   chapter.live = [](const SceneSource& source, int port, bool quiet) {
+  //     MyLiveScene scene(source);
+  //     return live::serve(scene, port, quiet);  // common/live/serve.hpp, library fc_live
+  //   };
+  // A function, so that this library needs no server. May be empty: then there is no --live.
+  std::function<int(const SceneSource& source, int port, bool quiet)> live = {};
 };
 
 // The whole of main(): parses options, reads the scene, runs, sweeps or explains, prints, and maps failures
