@@ -43,6 +43,11 @@ find_package(fmt REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(Qhull REQUIRED)
+find_package(Threads REQUIRED)
+# Where cpp-httplib is a compiled library, its header must be read with the settings that it was compiled with: these are in the
+# file for pkg-config alone.
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(HTTPLIB REQUIRED IMPORTED_TARGET cpp-httplib)
 
 # What nearly every file includes, compiled once.
 file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/precompiled.cpp CONTENT "// Carries the precompiled header; no code.\n")
