@@ -28,7 +28,8 @@ int main(int argc, char** argv) {
   chapter.run = run;
   if (std::getenv("FC_NOT_LIVE") == nullptr)
     chapter.live = [](const fc::SceneSource& source, int port, bool quiet) {
-      if (source.overrides == std::vector<std::string>{"fails=1"}) throw fc::NumericalFailure("no scene at all");
+      if (source.overrides == std::vector<std::string>{"fails=1"})
+        throw fc::NumericalFailure("no scene at all");
       fc_test::FakeScene scene;
       scene.step_ms = number("FC_STEP_MS", 0);
       return fc::live::serve(scene, port, quiet);

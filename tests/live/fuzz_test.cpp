@@ -1,4 +1,5 @@
 // Ten thousand malformed requests, over raw sockets: none crashes the server, stops the scene or gets past the key.
+#include <future>
 #include <random>
 
 #include "page_side.hpp"
@@ -10,7 +11,7 @@ using fc_test::Served;
 
 class Fuzzer {
  public:
-  explicit Fuzzer(const Served& live) : live_(live) {}
+  Fuzzer(const Served& live, unsigned seed) : live_(live), random_(seed) {}
 
   std::string request() {
     switch (below(8)) {
@@ -25,7 +26,7 @@ class Fuzzer {
       case 4:
         return live_.request("POST", live_.target("/command"), header(), command());
       case 5:
-        return live_.request("GET", "/" + std::string(below(20000), 'a') + bytes(3), header());
+        return live_.request("GET", "/" + std::string(below(9000), 'a') + bytes(3), header());
       case 6:
         return wrong_length(command());
       default:
@@ -76,7 +77,7 @@ class Fuzzer {
                                     R"({"do": "grab", "body": 1, "point": [1, 2, 3]})",
                                     R"({"do": "throw", "from": [0, 0, 0], "velocity": [1e308, -1e308, 0]})",
                                     R"({"do": "drag", "to": [1e400, 0, 0]})",
-                                    std::string(below(60000), '['),
+                                    std::string(below(70000), '['),
                                     R"({"do": ["run", {"run": [1, [2]]}]})",
                                     R"({"do": "pause", "do": "reset"})"};
     return below(2) == 0 ? spoilt(commands[below(std::size(commands))])
@@ -109,33 +110,40 @@ class Fuzzer {
   }
 
   const Served& live_;
-  std::mt19937_64 random_{20080101};
+  std::mt19937_64 random_;
 };
 
-TEST(Fuzz, TenThousandMalformedRequests) {
-#ifdef FC_SANITIZED
-  constexpr int requests = 10000;
-#else
-  constexpr int requests = 10000;
-#endif
-  const Served live(3, 0.005);
-  Fuzzer fuzzer(live);
+// Sends requests, and counts the statuses that answer them.
+std::map<int, int> statuses_of(const Served& live, unsigned seed, int requests) {
+  Fuzzer fuzzer(live, seed);
   std::map<int, int> statuses;
   for (int i = 0; i < requests; ++i) {
-    const std::string request = fuzzer.request();
     const Connection connection(live.server.port());
-    connection.send(request);
-    connection.end_sending();
+    connection.send(fuzzer.request());
+    // Of what has no end the server waits for the rest: then the connection is closed, as a page that goes.
+    if (!connection.has_come(std::chrono::milliseconds(5))) continue;
     const std::string answer = connection.receive();  // its beginning: a stream would not end
     if (answer.starts_with("HTTP/1.1 ")) ++statuses[std::stoi(answer.substr(9))];
   }
-  for (const int expected : {200, 400, 403, 404, 413, 416}) EXPECT_GT(statuses[expected], 0) << expected;
+  return statuses;
+}
+
+TEST(Fuzz, TenThousandMalformedRequests) {
+  constexpr unsigned pages = 8;
+  const Served live(3, 0.005);
+  std::vector<std::future<std::map<int, int>>> counted;
+  for (unsigned page = 0; page < pages; ++page)
+    counted.push_back(std::async(std::launch::async, statuses_of, std::cref(live), page, 10000 / pages));
+  std::map<int, int> statuses;
+  for (auto& counts : counted)
+    for (const auto& [status, count] : counts.get()) statuses[status] += count;
+  for (const int expected : {200, 400, 403, 404, 405, 413, 415, 416})
+    EXPECT_GT(statuses[expected], 0) << expected;
   EXPECT_EQ(statuses[500], 0);
   EXPECT_FALSE(live.scene.two_threads);
-  const auto frames = live.scene.frames.load();
+  EXPECT_EQ(live.command(R"({"do": "reset"})").status, 200);
   EXPECT_EQ(live.command(R"({"do": "step"})").status, 200);
   EXPECT_EQ(live.state()["failed"], nullptr);
-  EXPECT_GE(live.scene.frames, std::min(frames, std::int64_t{1}));
 }
 
 // What reaches the server without its key changes nothing: every request is well formed but for the key.

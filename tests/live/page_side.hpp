@@ -4,6 +4,7 @@
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
 #include <netinet/in.h>
+#include <poll.h>
 #include <sys/socket.h>
 #include <sys/time.h>
 #include <unistd.h>
@@ -56,7 +57,6 @@ class Connection {
     }
     return true;
   }
-  void end_sending() const { shutdown(socket_, SHUT_WR); }
 
   // What has come, at least a byte; "" at the end.
   std::string receive() const {
@@ -64,6 +64,11 @@ class Connection {
     const ssize_t n = recv(socket_, buffer, sizeof buffer, 0);
     if (n < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) throw std::runtime_error("nothing came for 30 s");
     return n <= 0 ? std::string() : std::string(buffer, static_cast<std::size_t>(n));
+  }
+  // Whether something has come by then; the end counts.
+  bool has_come(std::chrono::milliseconds longest) const {
+    pollfd waited{socket_, POLLIN, 0};
+    return poll(&waited, 1, static_cast<int>(longest.count())) > 0;
   }
   std::string receive_all() const {
     std::string all;

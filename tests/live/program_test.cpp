@@ -197,7 +197,7 @@ TEST(LiveProgram, EarlierChaptersHaveNone) {
   EXPECT_EQ(third.exit_code, 2);
   EXPECT_EQ(
       third.err,
-      "--live has no effect in chapter 3 (impulses as an LCP): it opens the scene to a browser while it runs, in chapter 4 "
+      "--live has no effect in chapter 3 (impulse LCP): it opens the scene to a browser while it runs, in chapter 4 "
       "on; leave it out\n");
   EXPECT_EQ(refused("--live", "FC_NOT_LIVE=1").err, "--live: this program has no live scene; leave it out\n");
 }
