@@ -65,6 +65,8 @@ class Connection {
     if (n < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) throw std::runtime_error("nothing came for 30 s");
     return n <= 0 ? std::string() : std::string(buffer, static_cast<std::size_t>(n));
   }
+  void end_sending() const { shutdown(socket_, SHUT_WR); }
+
   // Whether something has come by then; the end counts.
   bool has_come(std::chrono::milliseconds longest) const {
     pollfd waited{socket_, POLLIN, 0};
