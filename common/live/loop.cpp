@@ -19,6 +19,15 @@ struct Overloaded : Functions... {
 template <class... Functions>
 Overloaded(Functions...) -> Overloaded<Functions...>;
 
+// A scene whose step has failed may stand in the middle of it.
+bool needs_a_whole_scene(const Command& command) {
+  return std::visit(
+      Overloaded{[](const command::Pause&) { return false; }, [](const command::Reset&) { return false; },
+                 [](const command::Stop&) { return false; }, [](const command::Set&) { return false; },
+                 [](const command::Speed&) { return false; }, [](const auto&) { return true; }},
+      command);
+}
+
 }  // namespace
 
 Pace::Clock::duration Pace::lasting(double seconds) {
@@ -126,6 +135,8 @@ Loop::Reply Loop::carry_out(const Command& command) {
 }
 
 Answer Loop::act(const Command& command) {
+  if (course_.failed && needs_a_whole_scene(command))
+    throw InputError("the scene has failed: reset it first");
   return std::visit(
       Overloaded{
           [this](const command::Run&) { return run_or_pause(true); },
@@ -153,7 +164,6 @@ Answer Loop::act(const Command& command) {
 }
 
 Answer Loop::run_or_pause(bool running) {
-  if (running && course_.failed) throw InputError("the scene has failed: reset it first");
   if (running && !course_.running) pace_.begin(Pace::Clock::now(), period());
   course_.running = running;
   return {running ? "it runs" : "it is paused"};
@@ -161,7 +171,6 @@ Answer Loop::run_or_pause(bool running) {
 
 Answer Loop::step_once() {
   run_or_pause(false);
-  if (course_.failed) throw InputError("the scene has failed: reset it first");
   simulation_.step();
   return {"one frame"};
 }

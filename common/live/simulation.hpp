@@ -25,34 +25,37 @@ struct ContactMark {
 };
 
 struct EffectState {
-  std::string name;    // as --explain calls it: "gravity"
+  std::string name;  // as --explain calls it: "gravity"
   bool on = false;
   bool can_switch = false;  // by the command set; see Simulation::set()
-  std::string key;     // the scene key that switches it, with the value for on: "gravity=[0, 0, -9.81]"; may be empty
-  std::string why;     // "declared at line 7", or "not asked for by this scene"
-  std::string adds;    // what it adds to the pipeline
-  double ms = 0;       // what it costs in a frame now, if that is measured
+  // The scene key that switches it, with the value for on: "gravity=[0, 0, -9.81]"; may be empty.
+  std::string key;
+  std::string why;   // "declared at line 7", or "not asked for by this scene"
+  std::string adds;  // what it adds to the pipeline
+  double ms = 0;     // what it costs in a frame now, if that is measured
 };
 
 // A scene key that the page offers as a knob.
 struct Knob {
-  std::string key, unit, value, meaning;   // "ccd.tolerance", "m", "1e-6", one sentence
-  double low = 0, high = 0;                // of a number; low > 0: the page's slider is logarithmic
-  std::vector<std::string> choices;        // of a word
-  bool restarts = false;                   // setting it begins the scene again
+  std::string key, unit, value, meaning;  // "ccd.tolerance", "m", "1e-6", one sentence
+  double low = 0, high = 0;               // of a number; low > 0: the page's slider is logarithmic
+  std::vector<std::string> choices;       // of a word
+  bool restarts = false;                  // setting it begins the scene again
 };
 
 // The simulation after a frame. Energies in J; those of the account are sums since the start.
 struct Snapshot {
   std::int64_t frame = 0;
-  double t = 0;        // s, simulated
-  double dt = 0;       // s, of a frame
+  double t = 0;   // s, simulated
+  double dt = 0;  // s, of a frame
   std::vector<Pose> poses;
   std::vector<ContactMark> contacts;
-  std::vector<std::pair<std::string, double>> stages;  // ms of the last frame: "ccd_ms", "lcp_ms", …; they add up to step_ms
+  // Of the last frame, in ms: "ccd_ms", "lcp_ms", …; they add up to step_ms.
+  std::vector<std::pair<std::string, double>> stages;
   double step_ms = 0;
-  double energy = 0, kinetic = 0, potential = 0;       // J
-  std::vector<std::pair<std::string, double>> account; // J since the start: "impacts", "friction", "corrections", "hand", …
+  double energy = 0, kinetic = 0, potential = 0;  // J
+  // Since the start, in J: "impacts", "friction", "corrections", "hand", …
+  std::vector<std::pair<std::string, double>> account;
   double min_gap = 0;    // m, the smallest certified gap of the last frame; infinite if there is none
   double lost_time = 0;  // s, in the last frame
   double residual = 0;   // of the solver, in the last frame
@@ -69,7 +72,7 @@ struct Answer {
 };
 
 // A scene that runs. One thread calls all of this. Commands throw InputError with one line for what they refuse, and then
-// nothing has changed. step() may throw NumericalFailure: then reset() is possible, and set().
+// nothing has changed. step() may throw NumericalFailure: then the const functions, reset() and set() stay possible.
 class Simulation {
  public:
   virtual ~Simulation() = default;
@@ -83,10 +86,11 @@ class Simulation {
   virtual std::vector<EffectState> effects() const = 0;
   virtual std::vector<Knob> knobs() const = 0;
   virtual Answer reset() = 0;  // the scene as it was read, with the values that were set
-  virtual Answer set(const std::string& key, const std::string& value) = 0;  // a scene key, as --set; "none" removes it
-  virtual Answer throw_ball(const Vec3& from, const Vec3& velocity) = 0;     // m, m/s
-  virtual Answer grab(int body, const Vec3& point) = 0;                      // m, world: a point of the body
-  virtual Answer drag(const Vec3& to) = 0;                                   // m, world: where the grabbed point is pulled to
+  // A scene key, as --set; "none" removes it.
+  virtual Answer set(const std::string& key, const std::string& value) = 0;
+  virtual Answer throw_ball(const Vec3& from, const Vec3& velocity) = 0;  // m, m/s
+  virtual Answer grab(int body, const Vec3& point) = 0;                   // m, world: a point of the body
+  virtual Answer drag(const Vec3& to) = 0;  // m, world: where the grabbed point is pulled to
   virtual Answer drop() = 0;
   // The scene as it stands, as YAML that runs. The simulation goes on from what the text says, digit by digit: a run of the
   // text has the same poses.
