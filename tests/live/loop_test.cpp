@@ -84,8 +84,9 @@ TEST_F(Running, SlowMotionIsSlower) {
   ask(command::Speed{0.05});  // a frame in 100 ms
   const auto start = Clock::now();
   const auto before = scene_.frames.load();
-  EXPECT_TRUE(soon([&] { return scene_.frames >= before + 4; }));
-  EXPECT_GE(Clock::now() - start, 3 * 100ms);
+  EXPECT_TRUE(soon([&] { return scene_.frames >= before + 6; }));
+  EXPECT_GE(Clock::now() - start,
+            3 * 100ms - 1ms);  // on a busy machine three of the six may have been due already
   EXPECT_EQ(state()["speed"], 0.05);
 }
 

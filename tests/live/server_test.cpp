@@ -216,7 +216,7 @@ TEST(Stream, SeveralPagesSeeTheSameAndEndWithTheScene) {
 }
 
 TEST(Stream, APageThatReadsNothingHoldsUpNobody) {
-  Served live(20000, 0.005);  // half a megabyte a frame
+  Served live(10000, 0.005);  // a quarter of a megabyte a frame
   const Connection slow(live.server.port(), 4096);
   slow.send(live.stream());
   const Connection idle(live.server.port());  // says nothing
@@ -231,15 +231,15 @@ TEST(Stream, APageThatReadsNothingHoldsUpNobody) {
 }
 
 TEST(Stream, APageThatWasSlowGetsTheNewestFrame) {
-  Served live(20000, 0.002);
+  Served live(8000, 0.002);
   StreamReader slow(live.server.port(), live.stream(), 4096);
   const std::uint32_t first = slow.next(1).frame();
-  EXPECT_TRUE(soon([&] { return live.scene.frames > first + 100; }));
+  EXPECT_TRUE(soon([&] { return live.scene.frames > first + 60; }));
   live.command(R"({"do": "pause"})");
   const auto last = static_cast<std::uint32_t>(live.scene.frames);
   int messages = 0;
   while (slow.next(1).frame() != last) ++messages;
-  EXPECT_LT(messages, 20);  // what the buffers held, and not a hundred
+  EXPECT_LT(messages, 20);  // what the buffers held, and not sixty
 }
 
 TEST(Stream, The33rdIsRefusedUntilAnotherHasGone) {
