@@ -178,7 +178,7 @@ function frameView() {
   const until = motion.impacts.length ? Math.min(motion.duration, 1.25 * motion.impacts[motion.impacts.length - 1]) : motion.duration;
   const [low, high] = box(until);
   camera.target = low.map((v, i) => 0.5 * (v + high[i]));
-  camera.distance = 1.3 * Math.max(1e-3, Math.hypot(...low.map((v, i) => high[i] - v)));
+  camera.distance = (isLive ? 1.6 : 1.3) * Math.max(1e-3, Math.hypot(...low.map((v, i) => high[i] - v)));
   camera.yaw = -0.9; camera.pitch = 0.35; camera.follow = null;
   // Look at the longest way from the side.
   const size = low.map((v, i) => high[i] - v);

@@ -114,7 +114,7 @@ async function save() {
 }
 
 // Stops the program, which other pages may watch: asked twice.
-let stopAsked = 0;
+let stopAsked = -Infinity;
 async function stopTwice() {
   if (performance.now() - stopAsked > 3000) {
     stopAsked = performance.now();

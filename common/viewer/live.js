@@ -103,17 +103,22 @@ async function follow() {
     let reason = "The simulation does not answer.";
     try {
       const answer = await fetch(path("stream"));
-      if (answer.status === 403) return end("The key in this page's address is not the simulation's. Open the address that it printed.");
       if (answer.status === 503) reason = "Too many pages watch this simulation.";
-      if (!answer.ok) throw new Error(answer.status);
+      if (!answer.ok) throw new Error(String(answer.status));
       const reader = answer.body.getReader();
       assembly.filled = 0;
       for (let piece = await reader.read(); !piece.done; piece = await reader.read()) {
         connected();
-        take(piece.value);
+        try {
+          take(piece.value);
+        } catch (error) {  // not the network's: a message that cannot be read
+          console.error(error);
+          reader.cancel();
+          throw error;
+        }
       }
     } catch (error) {
-      if (!(error instanceof TypeError)) console.log(error.message);  // a TypeError is the network's
+      if (error.message === "403") return end("The key in this page's address is not the simulation's. Open the address that it printed.");
     }
     if (live.ended) return;
     live.connected = false;
@@ -132,7 +137,8 @@ function connected() {
   live.lostAt = live.retries = 0;
   forgetFrames();
   banner("");
-  fetch(path("state")).then(answer => answer.ok ? answer.json() : null).then(state => { if (state) takeState(state); }, () => {});
+  const known = live.state;  // a scene that stands still may send none for long; one that the stream sends first is newer
+  fetch(path("state")).then(answer => answer.ok ? answer.json() : null).then(state => { if (state && live.state === known) takeState(state); }, () => {});
 }
 
 function end(text, again) {

@@ -79,7 +79,7 @@ const lines = [[1000 / 60, "1/60 s"], [1000 / 30, "1/30 s"]];
 
 function drawCost() {
   const canvas = $("costs"), ratio = fit(canvas), pen = canvas.getContext("2d"), w = canvas.clientWidth, h = canvas.clientHeight;
-  const { list, most } = samples, left = 34, bottom = h - 2, top = 14;
+  const { list, most } = samples, left = 44, bottom = h - 2, top = 14;
   const high = list.reduce((m, s) => Math.max(m, s.ms), 0), scale = scales.find(s => s >= 1.1 * high) || high, y = ms => bottom - (bottom - top) * ms / scale;
   pen.setTransform(ratio, 0, 0, ratio, 0, 0);
   pen.clearRect(0, 0, w, h);
@@ -104,14 +104,14 @@ function drawCost() {
   pen.strokeStyle = colours.line; pen.lineWidth = 1;
   pen.beginPath(); pen.moveTo(left, bottom + 0.5); pen.lineTo(w, bottom + 0.5); pen.stroke();
   pen.fillStyle = colours.soft; pen.textAlign = "right"; pen.textBaseline = "middle";
-  pen.fillText(`${scale} ms`, left - 3, top + 1);
-  pen.fillText("0", left - 3, bottom - 5);
+  pen.fillText(`${short(scale)} ms`, left - 4, top + 1);
+  pen.fillText("0", left - 4, bottom - 5);
   for (const [ms, name] of lines) {
     if (ms > scale) continue;
     pen.strokeStyle = colours.mark; pen.setLineDash([4, 3]);
     pen.beginPath(); pen.moveTo(left, y(ms)); pen.lineTo(w, y(ms)); pen.stroke();
     pen.setLineDash([]);
-    if (y(ms) < bottom - 12 && y(ms) > top + 10) { pen.fillStyle = colours.mark; pen.fillText(name, left - 3, y(ms)); }
+    if (y(ms) < bottom - 12 && y(ms) > top + 10) { pen.fillStyle = colours.mark; pen.fillText(name, left - 4, y(ms)); }
   }
   const { step_ms, dt } = live.state, recent = list.slice(-10), mean = of => recent.reduce((sum, s) => sum + (of(s) || 0), 0) / Math.max(1, recent.length);
   text($("costNow"), `${short(+mean(s => s.ms).toPrecision(3))} ms a frame`);
@@ -136,12 +136,12 @@ const balance = { start: null };  // J: energy less its account, at the first st
 function numbersNow() {
   const s = live.state, account = Object.entries(s.account || {}).filter(([, v]) => typeof v === "number");
   const rows = [["smallest gap", s.min_gap, "m", "gap"], ["residual", s.residual, "", "residual"], ["contacts", s.contacts, ""], ["lost time", s.lost_time, "s"],
-                ["energy", s.energy, "J", "energy"], ["· kinetic", s.kinetic, "J"], ["· potential", s.potential, "J"],
-                ...account.map(([name, v]) => ["· " + name.replace(/_/g, " "), v, "J", null, "since the start"])];
+                ["energy", s.energy, "J", "energy"], ["kinetic", s.kinetic, "J"], ["potential", s.potential, "J"]];
+  if (account.length) rows.push(["energy from, since the start"], ...account.map(([name, v]) => [name.replace(/_/g, " "), v, "J"]));
   if (typeof s.energy === "number" && account.length) {
     const left = s.energy - account.reduce((sum, [, v]) => sum + v, 0);
     if (balance.start === null) balance.start = left;
-    rows.push(["· not accounted for", left - balance.start, "J", null, "Change of the energy that its account does not explain, since bodies or settings last changed"]);
+    rows.push(["not accounted for", left - balance.start, "J", null, "Change of the energy that its account does not explain, since bodies or settings were last changed"]);
   }
   return rows;
 }
@@ -153,7 +153,8 @@ function drawNumbers() {
   rows.forEach(([name, value, unit, curve, title], i) => {
     const cells = table.rows[i].cells;
     text(cells[0], name);
-    text(cells[1], typeof value === "number" ? numberText(value) : "none");
+    table.rows[i].className = value === undefined ? "title" : "";
+    text(cells[1], typeof value === "number" ? numberText(value) : value === null ? "none" : "");
     text(cells[2], typeof value === "number" ? unit : "");
     table.rows[i].title = title || "";
     const canvas = cells[3].firstChild;
@@ -162,7 +163,7 @@ function drawNumbers() {
   });
 }
 
-const numberText = v => v === 0 ? "0" : Math.abs(v) >= 1e5 || Math.abs(v) < 1e-3 ? v.toExponential(2) : v.toPrecision(5);
+const numberText = v => Number.isInteger(v) && Math.abs(v) < 1e6 ? String(v) : Math.abs(v) >= 1e5 || Math.abs(v) < 1e-3 ? v.toExponential(2) : v.toPrecision(5);
 
 // A small curve of the last seconds; of what spans decades, of its logarithm.
 function spark(canvas, values, decades) {

@@ -153,7 +153,7 @@ class FakeServer:
     """Serves a page and a Scene; `commands` are all that it was sent, in their order."""
 
     def __init__(self, page: str, scene: Scene, running=True):
-        self.page, self.scene, self.running = page, scene, running
+        self.page, self.scene, self.running, self.key = page, scene, running, KEY
         self.commands, self.port, self.ended = [], 0, False
         self.change = threading.Condition()
         self.version = self.told = 0
@@ -165,7 +165,7 @@ class FakeServer:
 
     @property
     def url(self):
-        return f"http://127.0.0.1:{self.port}/?key={KEY}"
+        return f"http://127.0.0.1:{self.port}/?key={self.key}"
 
     def start(self):
         """Listens, at the same port if it did so before."""
@@ -235,7 +235,7 @@ class FakeServer:
         handler.wfile.write(body)
 
     def allowed(self, handler):
-        if parse_qs(urlparse(handler.path).query).get("key") == [KEY]:
+        if parse_qs(urlparse(handler.path).query).get("key") == [self.key]:
             return True
         self.answer(handler, 403, "no", "text/plain")
         return False
