@@ -201,7 +201,7 @@ function cameraAxes() {
 const dot3 = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 
 function viewMatrix(aspect) {
-  const [r, u, b] = cameraAxes(), e = eyeOf(), f = 1 / Math.tan(0.35) / Math.min(1, aspect), near = 0.02 * camera.distance, far = 40 * camera.distance;
+  const [r, u, b] = cameraAxes(), e = eyeOf(), f = Math.min(1, aspect) / Math.tan(0.35), near = 0.02 * camera.distance, far = 40 * camera.distance;
   const p = (far + near) / (near - far), q = 2 * far * near / (near - far);
   const rows = [r, u, b].map(axis => [...axis, -dot3(axis, e)]);
   const matrix = new Float32Array(16);  // projection times view, by columns

@@ -41,7 +41,7 @@ function meets(item, from, way) {
 
 // The way from the eye through a point of the screen, as long as it needs to go one metre away from the camera's plane.
 function wayThrough(clientX, clientY) {
-  const box = $("scene").getBoundingClientRect(), aspect = box.width / box.height, half = Math.tan(0.35) * Math.min(1, aspect);
+  const box = $("scene").getBoundingClientRect(), aspect = box.width / box.height, half = Math.tan(0.35) / Math.min(1, aspect);
   const [right, up, back] = cameraAxes();
   const sideways = half * aspect * (2 * (clientX - box.left) / box.width - 1), upwards = half * (1 - 2 * (clientY - box.top) / box.height);
   return right.map((v, i) => sideways * v + upwards * up[i] - back[i]);

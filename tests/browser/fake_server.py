@@ -11,7 +11,9 @@ from urllib.parse import parse_qs, urlparse
 import numpy as np
 
 KEY = "0123456789abcdef0123456789abcdef"
-POLICY = "default-src 'self' 'unsafe-inline'; img-src 'self' data:"
+# What the server allows its page.
+POLICY = ("default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src 'self' data: blob:; "
+          "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'")
 
 
 def box(size):
