@@ -103,7 +103,7 @@ async function follow() {
     let reason = "The simulation does not answer.";
     try {
       const answer = await fetch(path("stream"));
-      if (answer.status === 503) reason = "Too many pages watch this simulation.";
+      if (answer.status === 503) reason = (await answer.text()).trim() || reason;  // too many pages, or it is about to end
       if (!answer.ok) throw new Error(String(answer.status));
       const reader = answer.body.getReader();
       assembly.filled = 0;
@@ -313,9 +313,9 @@ function latest(kind, what) {
   return answer;
 }
 
-// Sends a command and shows its line if it is refused, or if it says something.
+// Sends a command and shows its line if it is refused; of what is done one sees the effect, but for the ball's size and number.
 async function order(what) {
   const answer = await command(what);
-  if (!answer.ok || answer.text) toast(answer.text || "This was refused.", !answer.ok);
+  if (!answer.ok || (what.do === "throw" && answer.text)) toast(answer.text || "This was refused.", !answer.ok);
   return answer;
 }
