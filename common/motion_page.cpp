@@ -5,7 +5,8 @@
 
 namespace fc {
 
-extern const std::string_view kViewerPage;  // common/viewer.html: CMake makes the source that has it
+extern const std::string_view
+    kViewerPage;  // common/viewer.html and common/viewer: CMake makes the source that has it
 
 namespace {
 
@@ -49,6 +50,10 @@ std::string motion_page(std::string_view title, std::string_view glb) {
   replace_once(page, "MOTION_TITLE", as_html(title));
   replace_once(page, "MOTION_GLB_BASE64", base64(glb));
   return page;
+}
+
+std::string live_page(std::string_view title) {
+  return motion_page(title, {});
 }
 
 }  // namespace fc

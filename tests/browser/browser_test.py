@@ -272,7 +272,7 @@ class BrowserTest(unittest.TestCase):
         page = run("ch04_multibody_stepping", self.folder / "hidden.yaml", self.folder / "hidden")
         self.open(page)
         self.assertGreater(count(pixels(self.page), "blue"), 1000)
-        self.open(self.broken("share > 0 && share < 1) return true", "share > 0 && share < 1) return false", page))
+        self.open(self.broken("item.veiled = hides(item, eye)", "item.veiled = false", page))
         self.assertEqual(count(pixels(self.page), "blue"), 0)
 
     def time_after_an_old_clock(self, file: Path) -> float:

@@ -124,18 +124,26 @@ class Page:
 
     def open(self, file: Path, query: str = "") -> dict:
         """Opens a page from its file, as a double click does; what it says of itself when it is ready."""
+        return self.go(file.resolve().as_uri() + query)
+
+    def go(self, address: str) -> dict:
         self.requests, self.complaints = [], []
-        self.call("Page.navigate", url=file.resolve().as_uri() + query)
+        self.call("Page.navigate", url=address)
         while not (state := self.js("document.body && (document.body.dataset.ready || document.body.dataset.error)")):
             time.sleep(0.02)
             if time.monotonic() > self.deadline:
-                raise NoBrowser(f"{file} did not get ready in time: {self.complaints}")
+                raise NoBrowser(f"{address} did not get ready in time: {self.complaints}")
         return json.loads(state) if state.startswith("{") else {"error": state}
 
     def press(self, key: str) -> None:
         text = {"text": key} if len(key) == 1 else {}
         self.call("Input.dispatchKeyEvent", type="keyDown", key=key, **text)
         self.call("Input.dispatchKeyEvent", type="keyUp", key=key)
+
+    def mouse(self, kind: str, x: float, y: float, button: str = "left", **more) -> None:
+        """`kind`: Pressed, Moved, Released or Wheel. While a button is down, moves name it, too."""
+        held = {"left": 1, "right": 2, "middle": 4, "none": 0}[button] if kind != "Released" else 0
+        self.call("Input.dispatchMouseEvent", type=f"mouse{kind}", x=x, y=y, button=button, buttons=held, **{"clickCount": 1} | more)
 
     def settle(self) -> None:
         """Waits until what was asked for is drawn."""
