@@ -93,8 +93,9 @@ Vec3 Hand::point(const World& world) const {
 }
 
 // With a stretch x and the point's velocity v, the spring asks for x'' = -x / T^2 - 2 v / T, and against gravity. Taken at the
-// frame's end (implicit Euler), this is stable for every dt: v' = (v - dt x / T^2) / (1 + dt / T)^2. A stretch is cut to that of
-// the largest force, so that a far target is approached at a bounded speed, too.
+// frame's end (implicit Euler), this is stable for every dt: v' = (v - dt x / T^2) / (1 + dt / T)^2. Here v and v' are the mean
+// velocities of the last frame and of this one, half of dt g away from those between them, so that a body at rest has none.
+// A stretch is cut to that of the largest force, so that a far target is approached at a bounded speed, too.
 double Hand::pull(World& world, double dt, double size) const {
   if (body_ < 0) return 0;
   RigidBody state = world.bodies[static_cast<std::size_t>(body_)].state;
@@ -103,8 +104,9 @@ double Hand::pull(World& world, double dt, double size) const {
   Vec3 stretch = at - target_;
   if (stretch.norm() > longest) stretch *= longest / stretch.norm();
   const double damped = 1 + dt / kTime;
-  Vec3 change = (velocity - dt / (kTime * kTime) * stretch) / (damped * damped) - velocity;
-  if (world.effects.gravity) change -= dt * world.gravity_on(state);
+  const Vec3 half = world.effects.gravity ? Vec3(0.5 * dt * world.gravity_on(state)) : Vec3(Vec3::Zero());
+  const Vec3 change =
+      (velocity - half - dt / (kTime * kTime) * stretch) / (damped * damped) - half - velocity;
   Vec3 impulse = impulse_for(response(state, arm), change);
   const double limit = dt * most * state.mass;
   if (impulse.norm() > limit) impulse *= limit / impulse.norm();
