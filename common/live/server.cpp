@@ -47,18 +47,17 @@ void answer_shared(httplib::Response& response, Text text, std::size_t from, con
       });
 }
 
-Access::Request said_by(const httplib::Request& request) {
-  Access::Request said;
-  for (std::size_t i = 0; i < request.get_header_value_count("Host"); ++i)
-    said.hosts.push_back(request.get_header_value("Host", i));
-  for (std::size_t i = 0; i < request.get_header_value_count("Origin"); ++i)
-    said.origins.push_back(request.get_header_value("Origin", i));
-  if (request.has_param("key")) said.key = request.get_param_value("key");
-  return said;
+std::vector<std::string> headers(const httplib::Request& request, const char* name) {
+  std::vector<std::string> values;
+  const auto [first, last] = request.headers.equal_range(name);
+  for (auto header = first; header != last; ++header) values.push_back(header->second);
+  return values;
 }
 
-bool is_chunked(const httplib::Request& request) {
-  return request.has_header("Transfer-Encoding");
+Access::Request said_by(const httplib::Request& request) {
+  Access::Request said{headers(request, "Host"), headers(request, "Origin"), std::nullopt};
+  if (request.has_param("key")) said.key = request.get_param_value("key");
+  return said;
 }
 
 }  // namespace
@@ -180,7 +179,7 @@ Handled Server::Http::admit(const httplib::Request& request, httplib::Response& 
     return refuse(416, "there are no ranges");  // the library's are not checked
   if (!is_command) return Handled::Unhandled;
   if (request.is_multipart_form_data()) return refuse(415, "a command is JSON");
-  if (!request.has_header("Content-Length") && !is_chunked(request))
+  if (!request.has_header("Content-Length") && !request.has_header("Transfer-Encoding"))
     return refuse(411, "a command needs its length");  // the library would read until the connection ends
   return Handled::Unhandled;
 }
