@@ -189,8 +189,11 @@ bool Resting::go_on(Instant& instant, Island& island) {
     return kinetic(island.members) - instant.report.kinematic_work - records_.tangential_work();
   };
   const double unresolved = without_works();
+  const int impacts = instant.report.impacts;
   const bool solved = island.pairs.empty() || resolve(instant, island);
-  report_.impact_energy += without_works() - unresolved;
+  // Without an impact, an instant only takes back what the plans that end here have borrowed: the other half of their pushes.
+  (instant.report.impacts > impacts ? report_.impact_energy : instant.on_plans) +=
+      without_works() - unresolved;
   set_motions(instant, island.members, before, work);
   const bool goes = instant.now >= dt_ || island.pairs.empty() || (solved && plan(instant, island));
   const double rest_speed = instant.now >= dt_ ? envelope() / dt_ : 0;

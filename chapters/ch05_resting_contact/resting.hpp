@@ -31,8 +31,8 @@ struct RestReport {
   double tangential_work = 0;  // J, of impulses along the surfaces
   int shortened = 0;           // bodies of piles whose paths were shortened
   double lost_impulse = 0;     // N s, the momentum that shortening took
-  // J, for an account of energies. What instants took along the normals; and what plans took, or added, beyond the works of
-  // friction and of kinematic bodies, summed over the plans that end together.
+  // J, for an account of energies. What impacts took along the normals; and what plans, with the instants at their ends, took or
+  // added, beyond the works of friction and of kinematic bodies, summed over the plans that end together.
   double impact_energy = 0, plan_loss = 0, plan_gain = 0;
   StageTimes times = {};
   std::vector<Clash> clashes = {};  // of kinematic bodies, first reported in this frame; times in the frame
