@@ -183,7 +183,7 @@ TEST(SceneWriter, EverySceneOfTheChapters) {
       meshless.insert(entry.path().stem());
     }
   }
-  EXPECT_GE(scenes + static_cast<int>(meshless.size()), 60);
+  EXPECT_GE(scenes + static_cast<int>(meshless.size()), 50);
   EXPECT_LE(meshless.size(), 12u);
 }
 
