@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "ch04_multibody_stepping/live_hand.hpp"
 #include "ch04_multibody_stepping/live_offer.hpp"
@@ -227,12 +228,22 @@ live::Snapshot LiveWorld::snapshot() const {
   return now;
 }
 
-// What is measured of an effect: collision, by its own stage.
+// What is measured of an effect is the time of its stage; of a solver, that of the last law that was put on top.
 std::vector<live::EffectState> LiveWorld::effects() const {
+  static const std::pair<const char*, const char*> kStages[] = {{"swept detection", "broad_phase_ms"},
+                                                                {"collision", "ccd_ms"},
+                                                                {"envelope", "contacts_ms"},
+                                                                {"plans", "proofs_ms"},
+                                                                {"friction", "lcp_ms"},
+                                                                {"impact law", "lcp_ms"}};
   std::vector<live::EffectState> list = now_->effects;
-  for (live::EffectState& effect : list)
-    for (const auto& [stage, time] : last_.stages)
-      if (effect.name == "collision" && stage == "ccd_ms") effect.ms = time;
+  NamedNumbers left = last_.stages;
+  for (const auto& [effect, stage] : kStages)
+    for (live::EffectState& state : list) {
+      if (state.name != effect || !state.on) continue;
+      for (auto& [name, time] : left)
+        if (name == stage) state.ms = std::exchange(time, 0);
+    }
   return list;
 }
 

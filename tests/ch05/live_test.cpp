@@ -46,6 +46,38 @@ TEST(LiveRest, StandingBodiesCanBeLifted) {
   EXPECT_NEAR(scene->snapshot().poses[5].position.z(), 2, 0.01);
 }
 
+// Bodies that meet too often for events form a pile, whose impacts are part of its plans.
+TEST(LiveRest, AccountIsClosedInAPile) {
+  const LiveScene scene = open(
+      "step: {dt: 0.01, duration: 1}\ngravity: [0, 0, -9.81]\nenvelope: 1e-3\nrestitution: 0.2\nshapes:\n  floor: {box: {size: "
+      "[50, 50, 1]}}\n  box: {box: {size: [1, 1, 1]}, density: 100}\nbodies:\n  - {shape: floor, static: true, position: [0, 0, "
+      "-0.5]}\n  - {shape: box, grid: {count: [4, 4, 4], spacing: [1.002, 1.002, 1.01]}, position: [0, 0, 0.6]}\n");
+  const fc::Scene bodies = scene_of(scene->save().text, 5);
+  scene->grab(30, scene->snapshot().poses[30].position);
+  scene->drag({6, 0, 6});
+  Bookkeeper book(scene->snapshot());
+  for (int frame = 0; frame < 100; ++frame) {
+    scene->step();
+    book.look(scene->snapshot());
+    if (frame % 20 == 0) expect_apart(bodies, scene->snapshot());
+  }
+  EXPECT_LT(entry(scene->snapshot(), "impacts"), 0);
+}
+
+TEST(LiveRest, StagesAddUpToTheStep) {
+  const LiveScene scene = open();
+  for (int frame = 0; frame < 50; ++frame) {
+    scene->step();
+    const auto now = scene->snapshot();
+    double sum = 0;
+    for (const auto& [stage, time] : now.stages) {
+      EXPECT_GE(time, 0) << stage;
+      sum += time;
+    }
+    EXPECT_NEAR(sum, now.step_ms, 1e-9 + 1e-3 * now.step_ms);
+  }
+}
+
 // A wider envelope, or a narrower one, is taken while bodies rest: no overlap, and the account stays closed.
 TEST(LiveRest, TheEnvelopeChangesUnderRestingBodies) {
   const LiveScene scene = open();
