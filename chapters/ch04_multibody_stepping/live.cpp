@@ -13,6 +13,7 @@
 #include "common/motion_recording.hpp"
 #include "common/scene_writer.hpp"
 #include "common/stopwatch.hpp"
+#include "common/text.hpp"
 #include "common/yaml_tree.hpp"
 
 namespace fc::world {
@@ -255,9 +256,11 @@ live::Answer LiveWorld::reset() {
 
 live::Answer LiveWorld::set(const std::string& key, const std::string& value) {
   const Stopwatch watch;
+  if (key.find('=') != std::string::npos)
+    throw InputError(fmt::format("{} is not a key; write e.g. ccd.tolerance", in_quotes(key)));
   const bool removes = value == "none";
   if (removes && !now_->scene.mark(key))
-    throw InputError(fmt::format("the scene has no key '{}' that could be removed", key));
+    throw InputError(fmt::format("the scene has no key {} that could be removed", in_quotes(key)));
   std::vector<SceneEdit> edits = source_.edits;
   std::erase_if(edits, [&](const SceneEdit& e) { return e.key == key || e.key.starts_with(key + "."); });
   edits.push_back({key, removes ? std::nullopt : std::optional(value)});

@@ -13,8 +13,8 @@ namespace {
 // The spring is critically damped with this time constant: fast enough to feel held, and slow beside a frame of 1/60 s.
 constexpr double kTime = 0.1;  // s
 
-// The most that the hand pulls, in weights of the body. A pull of n weights moves a body of its own size's neighbours, too, up
-// to n of them; without a limit a far target would make any speed.
+// The most that the hand pulls, in weights of the body: enough to lift it with a stack of its like. Without a limit, a body that
+// is held back by a wall would be pressed against it ever harder.
 constexpr double kMostWeights = 20;
 
 constexpr double kLargest = 1e9;  // m, m/s: what a scene may have

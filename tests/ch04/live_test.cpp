@@ -95,6 +95,8 @@ TEST(Live, WhatIsRefusedChangesNothing) {
   EXPECT_NE(set("step", "none").find("missing key 'step'"), std::string::npos);
   EXPECT_NE(set("drag", "none").find("no key 'drag'"), std::string::npos);
   EXPECT_NE(set("bodies.2.position", "[3.5, 0, 1]").find("overlap"), std::string::npos);
+  EXPECT_NE(set("restitution=1", "0").find("is not a key"), std::string::npos);
+  EXPECT_NE(set("", "0").find("not a key"), std::string::npos);
   EXPECT_NE(set("restitution", "[").find("restitution"), std::string::npos);
   const auto refused = [&](const std::function<void()>& command) { return !refusal(command).empty(); };
   EXPECT_TRUE(refused([&] { scene->throw_ball({3.5, 0, 4}, {0, 0, 0}); }));  // in the wall
