@@ -35,8 +35,8 @@ struct Pipeline {
   std::vector<live::EffectState> effects;
   std::vector<live::Knob> knobs;
 
-  Pipeline(const LiveChapter& chapter, Scene of, World made)
-      : scene(std::move(of)), world(std::move(made)), step(chapter.prepare(scene, world)) {
+  Pipeline(const LiveChapter& chapter, Scene of, World made, const LiveBefore& before = {})
+      : scene(std::move(of)), world(std::move(made)), step(chapter.prepare(scene, world, before)) {
     effects = effects_offered(chapter, scene, world);
     knobs = knobs_offered(chapter, scene, world, step);
   }
@@ -268,7 +268,10 @@ live::Answer LiveWorld::set(const std::string& key, const std::string& value) {
   live::Answer answer{.text = removes ? key + " is removed" : key + " is " + value};
   if (changes_live(key)) {
     const Scene present = with_balls(scene, balls_);
-    put(std::make_unique<Pipeline>(chapter_, present, rebuild_world(present, now_->world)), "settings");
+    World world = rebuild_world(present, now_->world);
+    const bool same_search = world.tolerance == now_->world.tolerance;
+    const LiveBefore before{same_search ? &now_->step : nullptr, false};
+    put(std::make_unique<Pipeline>(chapter_, present, std::move(world), before), "settings");
     if (balls_.empty()) envelope_ = now_->step.envelope;
     answer.rebuilt = true;
   } else {
@@ -290,7 +293,8 @@ live::Answer LiveWorld::throw_ball(const Vec3& from, const Vec3& velocity) {
   Scene scene = with_balls(read(source_.edits), balls);
   World world = rebuild_world(scene, now_->world);
   refuse_overlap_of_last(world, scene);
-  put(std::make_unique<Pipeline>(chapter_, std::move(scene), std::move(world)), "throws");
+  const LiveBefore before{&now_->step, true};
+  put(std::make_unique<Pipeline>(chapter_, std::move(scene), std::move(world), before), "throws");
   balls_ = balls;
   ++geometry_;
   return {.text = fmt::format("a ball of {:.3g} m flies: body {}", balls.back().radius,
@@ -363,7 +367,7 @@ LiveStep live_step(const Scene& scene) {
 LiveChapter live_chapter() {
   LiveChapter chapter;
   chapter.name = "ch04_multibody_stepping";
-  chapter.prepare = [](const Scene& scene, World&) { return live_step(scene); };
+  chapter.prepare = [](const Scene& scene, World&, const LiveBefore&) { return live_step(scene); };
   chapter.explain = [](const Scene& scene, const World&) { return explain(scene); };
   return chapter;
 }

@@ -29,6 +29,13 @@ struct LiveFrame {
 struct LiveStep {
   std::function<LiveFrame(World&, const Listeners&)> frame;
   std::optional<double> envelope = {};  // m; the one in force, if there is one
+  std::shared_ptr<void> state = {};     // the chapter's own; chapter 4 has none
+};
+
+// The step of the same bodies (there may be more now) before the scene changed: what it has found out may save a search.
+struct LiveBefore {
+  const LiveStep* step = nullptr;  // null: there is none, or contacts are found by another tolerance now
+  bool same_rules = false;         // bodies were added, and nothing else has changed
 };
 
 // What differs from chapter to chapter.
@@ -38,7 +45,7 @@ struct LiveChapter {
   // The scene with what the chapter derives for it; empty: nothing.
   std::function<Scene(Scene)> complete = {};
   // May throw InputError: what the chapter refuses.
-  std::function<LiveStep(const Scene&, World&)> prepare = {};
+  std::function<LiveStep(const Scene&, World&, const LiveBefore&)> prepare = {};
   // The effects that are on, as for --explain.
   std::function<std::vector<Effect>(const Scene&, const World&)> explain = {};
 };

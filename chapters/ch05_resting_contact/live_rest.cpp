@@ -8,10 +8,13 @@ namespace fc::resting {
 
 // Impacts are what instants and plans took along the normals, corrections what plans added: of gaps, and by their error, which
 // is of second order. (The table's correction_energy is less: there an instant's losses are taken off first.)
-world::LiveStep live_step(const Scene& scene, world::World& world, std::unique_ptr<ContactLaw> law) {
+world::LiveStep live_step(const Scene& scene, world::World& world, const world::LiveBefore& before,
+                          std::unique_ptr<ContactLaw> law) {
   using world::ms;
   const double dt = scene.step->dt;
   const auto resting = std::make_shared<Resting>(scene, world, dt, RestOptions{}, std::move(law));
+  if (before.step != nullptr && before.step->state)
+    resting->take_over(*std::static_pointer_cast<Resting>(before.step->state), before.same_rules);
   const auto frames = std::make_shared<int>(0);
   const auto frame = [resting, frames, &scene, dt](world::World& now, const world::Listeners& listeners) {
     const RestReport report = resting->step(now, listeners);
@@ -31,15 +34,15 @@ world::LiveStep live_step(const Scene& scene, world::World& world, std::unique_p
         {"corrections_ms", ms(times.corrections_ns)}, {"proofs_ms", ms(times.proofs_ns)}};
     return result;
   };
-  return {frame, resting->envelope()};
+  return {frame, resting->envelope(), resting};
 }
 
 world::LiveChapter live_chapter() {
   world::LiveChapter chapter;
   chapter.number = 5;
   chapter.name = "ch05_resting_contact";
-  chapter.prepare = [](const Scene& scene, world::World& world) {
-    return scene.envelope ? live_step(scene, world) : world::live_step(scene);
+  chapter.prepare = [](const Scene& scene, world::World& world, const world::LiveBefore& before) {
+    return scene.envelope ? live_step(scene, world, before) : world::live_step(scene);
   };
   chapter.explain = [](const Scene& scene, const world::World& world) {
     return scene.envelope ? explain(scene, world) : world::explain(scene);

@@ -7,7 +7,8 @@
 namespace fc::resting {
 
 // The scene has an envelope. law: for this world; null: this chapter's. Throws as Resting().
-world::LiveStep live_step(const Scene& scene, world::World& world, std::unique_ptr<ContactLaw> law = {});
+world::LiveStep live_step(const Scene& scene, world::World& world, const world::LiveBefore& before,
+                          std::unique_ptr<ContactLaw> law = {});
 
 // A scene without an envelope is live as in chapter 4.
 world::LiveChapter live_chapter();

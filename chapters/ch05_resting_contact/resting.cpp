@@ -74,6 +74,12 @@ Resting::Resting(const Scene& scene, world::World& world, double dt, const RestO
   world.rest_gap = 0.5 * envelope();
 }
 
+void Resting::take_over(const Resting& before, bool same_rules) {
+  if (before.envelope() != envelope()) return;
+  contacts_.take_over(before.contacts_);
+  if (same_rules && before.frame_ == frame_) standing_.take_over(before.standing_);
+}
+
 RestReport Resting::step(world::World& world, const world::Listeners& listeners) {
   report_ = {};
   records_ = {};

@@ -56,6 +56,9 @@ class Resting : public world::Planner {
   // One frame of dt seconds (that of the constructor).
   RestReport step(world::World& world, const world::Listeners& listeners = {});
   double envelope() const { return contacts_.margin(); }
+  // Between frames, for a world of the same bodies and perhaps more, with the same tolerance: begins with the contacts that are
+  // known already, if the envelope is the same; and if all rules are the same, with the plans of islands that stand.
+  void take_over(const Resting& before, bool same_rules);
 
   std::vector<int> begin(world::World& world, double dt, world::StepReport& report,
                          const world::Listeners& listeners) override;

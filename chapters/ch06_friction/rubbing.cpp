@@ -53,11 +53,11 @@ world::LiveChapter live_chapter() {
   chapter.complete = [](const Scene& scene) {
     return asks_for_friction(scene) ? with_envelope(scene) : scene;
   };
-  chapter.prepare = [](const Scene& scene, world::World& world) {
+  chapter.prepare = [](const Scene& scene, world::World& world, const world::LiveBefore& before) {
     if (!scene.envelope) return world::live_step(scene);
-    if (!asks_for_friction(scene)) return resting::live_step(scene, world);
+    if (!asks_for_friction(scene)) return resting::live_step(scene, world, before);
     refuse_idle_keys(scene);
-    return resting::live_step(scene, world, std::make_unique<CoulombLaw>(world));
+    return resting::live_step(scene, world, before, std::make_unique<CoulombLaw>(world));
   };
   chapter.explain = [](const Scene& scene, const world::World& world) { return explain(scene, world); };
   return chapter;
