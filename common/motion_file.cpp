@@ -43,7 +43,7 @@ class MotionFile {
     file_.add("nodes", {{"name", "world"}, {"rotation", {-half, 0, 0, half}}});
     std::vector<float> times;
     for (const double t : r_.frame_times_) times.push_back(static_cast<float>(t));
-    frame_times_ = file_.floats(times, Element::scalar);
+    if (!times.empty()) frame_times_ = file_.floats(times, Element::scalar);
     for (std::size_t i = 0; i < r_.bodies_.size(); ++i) add_body(static_cast<int>(i));
     add_contacts();
     Json children = Json::array();
@@ -182,10 +182,8 @@ class MotionFile {
   double hold() const { return kHoldFrames * r_.frame_dt_; }
 
   Json extras() {
-    Json e = {{"title", r_.title_},
-              {"chapter", r_.chapter_},
-              {"frame_dt", r_.frame_dt_},
-              {"frame_times", frame_times_}};
+    Json e = {{"title", r_.title_}, {"chapter", r_.chapter_}, {"frame_dt", r_.frame_dt_}};
+    if (!r_.frame_times_.empty()) e["frame_times"] = frame_times_;
     Json series = Json::array();
     for (const MotionRecording::Series& s : r_.series_)
       series.push_back({{"group", s.group},
@@ -237,6 +235,10 @@ class MotionFile {
   std::map<std::pair<int, int>, int> meshes_;
   std::size_t left_out_ = 0;
 };
+
+std::string MotionRecording::glb() const {
+  return MotionFile(*this).bytes();
+}
 
 std::string MotionRecording::write(const std::filesystem::path& folder) {
   if (frame_times_.empty()) throw std::invalid_argument("a recording without frames");

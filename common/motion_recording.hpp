@@ -39,6 +39,8 @@ class MotionRecording {
 
   // Writes both files. Returns a remark for the summary: what was left out, if anything.
   std::string write(const std::filesystem::path& folder);
+  // The bytes of motion.glb. Without a frame: shapes and bodies where they were added, and no animation.
+  std::string glb() const;
 
  private:
   struct Key {

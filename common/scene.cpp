@@ -136,14 +136,21 @@ std::string Scene::body_text(int body) const {
 }
 
 Scene read_scene(const SceneSource& source) {
+  return read_scene_text(read_text_file(source.file), source);
+}
+
+Scene read_scene_text(const std::string& text, const SceneSource& source) {
   const auto origin = std::make_shared<const std::string>(source.file.string());
-  YamlPtr tree = parse_yaml(read_text_file(source.file), origin);
+  YamlPtr tree = parse_yaml(text, origin);
   if (tree->kind == YamlNode::Kind::nothing) refuse(tree->place, "the file is empty; write a scene into it");
   if (tree->kind != YamlNode::Kind::map) {
     refuse(tree->place, "a scene must be a map of keys; begin it with e.g. shapes:");
   }
-  for (const std::string& text : source.overrides) tree = with_override(tree, "--set", text);
+  for (const std::string& set : source.overrides) tree = with_override(tree, "--set", set);
   if (!source.swept.empty()) tree = with_override(tree, "--sweep", source.swept);
+  for (const SceneEdit& edit : source.edits)
+    tree =
+        edit.value ? with_override(tree, "set", edit.key + "=" + *edit.value) : without_key(tree, edit.key);
   std::map<std::string, SourceMark> marks = check_scene_keys(*tree, source.chapter);
   Scene scene = read_checked(Section(*tree, ""), source);
   scene.key_marks = std::move(marks);

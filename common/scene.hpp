@@ -79,16 +79,17 @@ struct BodySpec {
   std::string name;  // empty: none
   int shape = 0;     // index into Scene::shapes
   bool is_static = false;
-  bool is_kinematic = false;            // moves with its velocity and spin, whatever it hits
-  bool is_sensor = false;               // reports contacts, resolves none
-  Vec3 free_moves = Vec3::Ones();       // 1 or 0: whether it can move along each of the world's axes,
-  Vec3 free_turns = Vec3::Ones();       // and turn about each of its own
-  std::vector<PathRow> path;            // kinematic: where it is when, ascending; empty: no path
-  Vec3 position = Vec3::Zero();         // m, of the shape's own frame
-  Quat orientation = Quat::Identity();  // normalised
-  Vec3 velocity = Vec3::Zero();         // m/s, of the centre of mass
-  Vec3 spin = Vec3::Zero();             // rad/s, world axes
-  SourceMark where;                     // the list item it came from
+  bool is_kinematic = false;       // moves with its velocity and spin, whatever it hits
+  bool is_sensor = false;          // reports contacts, resolves none
+  Vec3 free_moves = Vec3::Ones();  // 1 or 0: whether it can move along each of the world's axes,
+  Vec3 free_turns = Vec3::Ones();  // and turn about each of its own
+  std::vector<PathRow> path;       // kinematic: where it is when, ascending; empty: no path
+  std::optional<std::filesystem::path> path_file;  // that these rows come from; resolved: it exists
+  Vec3 position = Vec3::Zero();                    // m, of the shape's own frame
+  Quat orientation = Quat::Identity();             // normalised
+  Vec3 velocity = Vec3::Zero();                    // m/s, of the centre of mass
+  Vec3 spin = Vec3::Zero();                        // rad/s, world axes
+  SourceMark where;                                // the list item it came from
 };
 
 // What two shapes do to each other, instead of the rules for pairs.
@@ -177,15 +178,24 @@ struct Scene {
   }
 };
 
+// A change of one value while a scene runs: as --set; or, without a value, the key is taken away, if the scene has it.
+struct SceneEdit {
+  std::string key;  // "ccd.tolerance"
+  std::optional<std::string> value;
+};
+
 struct SceneSource {
   std::filesystem::path file;
   std::vector<std::string> overrides;            // --set: "key.path=value", applied in order
   std::vector<std::filesystem::path> mesh_path;  // --mesh-path, in order
   int chapter = 0;                               // refuses keys of later chapters, requires this one's
   std::string swept = {};                        // --sweep: one more override, applied last
+  std::vector<SceneEdit> edits = {};             // of a live scene, applied after all others
 };
 
 // Reads and checks a scene. Throws InputError.
 Scene read_scene(const SceneSource& source);
+// The same for a text that stands for the file's content: relative paths begin at the file's folder, and messages name the file.
+Scene read_scene_text(const std::string& text, const SceneSource& source);
 
 }  // namespace fc

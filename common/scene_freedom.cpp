@@ -55,7 +55,8 @@ void read_path(const Section& body, const SceneSource& source, BodySpec& spec) {
     if (body.has(key))
       refuse(body.entry(key).key_place,
              fmt::format("'{}' beside 'path', which says where the body is; keep one of them", key));
-  const ReadTable table = read_table(resolved_file(body, "path", source), "t,px,py,pz,qw,qx,qy,qz");
+  spec.path_file = resolved_file(body, "path", source);
+  const ReadTable table = read_table(*spec.path_file, "t,px,py,pz,qw,qx,qy,qz");
   for (const ReadTable::Row& row : table.rows) {
     PathRow at;
     at.time = cell(table, row, 0);

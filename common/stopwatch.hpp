@@ -17,4 +17,17 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+// Adds the time of its own life to a sum, ns.
+class TimeInto {
+ public:
+  explicit TimeInto(std::int64_t& sum) : sum_(sum) {}
+  ~TimeInto() { sum_ += watch_.ns(); }
+  TimeInto(const TimeInto&) = delete;
+  TimeInto& operator=(const TimeInto&) = delete;
+
+ private:
+  std::int64_t& sum_;
+  Stopwatch watch_;
+};
+
 }  // namespace fc

@@ -123,4 +123,17 @@ YamlPtr with_value(const YamlPtr& root, std::string_view path, const YamlPtr& va
                        "; set the whole value instead");
 }
 
+YamlPtr without_key(const YamlPtr& root, std::string_view path) {
+  if (root->kind != YamlNode::Kind::map) return root;
+  const std::string_view key = first_key(*root, path), rest = rest_after(path, key.size());
+  auto changed = std::make_shared<YamlNode>(*root);
+  if (rest.empty()) {
+    std::erase_if(changed->entries, [&](const YamlNode::Entry& entry) { return entry.key == key; });
+    return changed;
+  }
+  for (YamlNode::Entry& entry : changed->entries)
+    if (entry.key == key) entry.value = without_key(entry.value, rest);
+  return changed;
+}
+
 }  // namespace fc

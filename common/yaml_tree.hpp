@@ -64,4 +64,7 @@ YamlPtr parse_yaml(const std::string& text, const YamlOrigin& origin, bool is_op
 YamlPtr with_value(const YamlPtr& root, std::string_view path, const YamlPtr& value,
                    const YamlOrigin& origin);
 
+// The tree without the key at `path`, which leads through maps; the tree itself if it has no such key.
+YamlPtr without_key(const YamlPtr& root, std::string_view path);
+
 }  // namespace fc

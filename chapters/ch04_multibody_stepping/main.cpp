@@ -1,6 +1,8 @@
 // Chapter 4: bodies stepped from contact to contact inside frames of fixed length.
+#include "ch04_multibody_stepping/live.hpp"
 #include "ch04_multibody_stepping/on_pieces.hpp"
 #include "ch04_multibody_stepping/run.hpp"
+#include "common/live/serve.hpp"
 #include "common/program.hpp"
 
 namespace {
@@ -32,5 +34,8 @@ int main(int argc, char** argv) {
   };
   chapter.pieces = world::clear::slots(pieces);
   chapter.check = [](const Scene& scene) { world::build_world(scene); };
+  chapter.live = [](const SceneSource& source, int port, bool quiet) {
+    return live::serve(*world::make_live(source, world::live_chapter()), port, quiet);
+  };
   return run_program(argc, argv, chapter);
 }

@@ -103,6 +103,7 @@ void add(const StepReport& part, StepReport& all) {
   all.queries += part.queries;
   all.node_pairs += part.node_pairs;
   all.lcp_ns += part.lcp_ns;
+  all.broad_ns += part.broad_ns;
 }
 
 }  // namespace fc::world

@@ -66,20 +66,11 @@ class Stepper final : public clear::Frame {
 
   // Opens the pairs whose swept boxes overlap in the frame, and queries each for its next contact.
   void begin_frame(Planner* planner) {
-    const int count = static_cast<int>(world_.bodies.size());
-    std::vector<Bounds> boxes;
-    boxes.reserve(world_.bodies.size());
-    for (int body = 0; body < count; ++body) boxes.push_back(world_.swept_bounds(body, 0, dt_));
-    schedule_.begin(boxes);
+    begin_schedule();
     if (planner != nullptr)
       for (const int body : planner->begin(world_, dt_, report_, listeners_))
         schedule_.replace(body, world_.swept_bounds(body, 0, dt_));
-    std::vector<std::pair<int, int>> pairs;
-    schedule_.overlapping_pairs([&](int a, int b) {
-      if (world_.may_meet(a, b)) pairs.emplace_back(std::min(a, b), std::max(a, b));
-    });
-    std::sort(pairs.begin(), pairs.end());  // the tree does not return them in the bodies' order
-    for (const auto& [a, b] : pairs) open(a, b, 0);
+    for (const auto& [a, b] : near_pairs()) open(a, b, 0);
   }
 
   std::optional<clear::Event> earliest() override {
@@ -178,6 +169,26 @@ class Stepper final : public clear::Frame {
   }
 
   void solve_island(double now);
+
+  void begin_schedule() {
+    const TimeInto time(report_.broad_ns);
+    std::vector<Bounds> boxes;
+    boxes.reserve(world_.bodies.size());
+    for (int body = 0; body < static_cast<int>(world_.bodies.size()); ++body)
+      boxes.push_back(world_.swept_bounds(body, 0, dt_));
+    schedule_.begin(boxes);
+  }
+
+  // The pairs to be queried in this frame, in the bodies' order, in which the tree does not return them.
+  std::vector<std::pair<int, int>> near_pairs() const {
+    const TimeInto time(report_.broad_ns);
+    std::vector<std::pair<int, int>> pairs;
+    schedule_.overlapping_pairs([&](int a, int b) {
+      if (world_.may_meet(a, b)) pairs.emplace_back(std::min(a, b), std::max(a, b));
+    });
+    std::sort(pairs.begin(), pairs.end());
+    return pairs;
+  }
 
   // Frozen in place, not as part of a group that goes on.
   static bool is_still(const Body& body) { return body.frozen && body.group < 0; }

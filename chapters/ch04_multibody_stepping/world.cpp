@@ -261,35 +261,73 @@ Bounds World::swept_bounds(int body, double from, double to) const {
   return {box.low - margin, box.high + margin};
 }
 
-World build_world(const Scene& scene) {
-  World world;
-  world.shapes = build_shapes(scene, true);
-  for (const Shape& shape : world.shapes) world.models.push_back(hulls::build_model(shape));
+namespace {
+
+void add_shape(World& world, const Shape& shape) {
+  world.shapes.push_back(shape);
+  world.models.push_back(hulls::build_model(shape));
+  world.half_extents.push_back(half_extent(shape));
+  world.ball_radius.push_back(is_centred_ball(shape) ? shape.radius : 0.0);
+}
+
+// What the scene says of all bodies and shapes together.
+void set_rules(World& world, const Scene& scene) {
   world.pair_rules = PairRules(scene);
   world.effects = effects_of(scene);
   world.solver = scene.solver;
   world.impact.solver = lcp::solver_of(scene.solver);
   world.max_pairs = scene.ccd.max_iterations;
-  for (const Shape& shape : world.shapes) {
-    world.half_extents.push_back(half_extent(shape));
-    world.ball_radius.push_back(is_centred_ball(shape) ? shape.radius : 0.0);
-  }
+  world.principal.clear();
   if (world.effects.gyroscopic)
     for (const Shape& shape : world.shapes)
       world.principal.emplace_back(shape.mass.mass > 0 ? shape.mass.inertia : Mat3(Mat3::Identity()));
-  for (const BodySpec& spec : scene.bodies) {
-    Body body;
-    body.shape = spec.shape;
-    body.sensor = spec.is_sensor;
-    RigidBody state = make_body(world.shapes[spec.shape], spec);
-    if (!spec.path.empty()) {
-      body.path = std::make_shared<const Path>(spec.path, world.shapes[spec.shape]);
-      state = body.path->at(0, 0);
-    }
-    world.bodies.push_back(body);
-    world.set_motion(static_cast<int>(world.bodies.size()) - 1, state, 0);
-  }
   world.tolerance = std::max(scene.ccd.tolerance, least_tolerance(world));
+}
+
+void add_body(World& world, const BodySpec& spec) {
+  Body body;
+  body.shape = spec.shape;
+  body.sensor = spec.is_sensor;
+  RigidBody state = make_body(world.shapes[spec.shape], spec);
+  if (!spec.path.empty()) {
+    body.path = std::make_shared<const Path>(spec.path, world.shapes[spec.shape]);
+    state = body.path->at(0, 0);
+  }
+  world.bodies.push_back(body);
+  world.set_motion(static_cast<int>(world.bodies.size()) - 1, state, 0);
+}
+
+}  // namespace
+
+World build_world(const Scene& scene) {
+  World world;
+  for (const Shape& shape : build_shapes(scene, true)) add_shape(world, shape);
+  set_rules(world, scene);
+  for (const BodySpec& spec : scene.bodies) add_body(world, spec);
+  refuse_overlaps(world, scene);
+  return world;
+}
+
+World rebuild_world(const Scene& scene, const World& from) {
+  World world = from;
+  world.schedule = {};
+  world.memory = {};
+  world.rest_gap = 0;
+  for (std::size_t i = 0; i < scene.shapes.size(); ++i) {
+    const ShapeSpec& spec = scene.shapes[i];
+    if (i == world.shapes.size()) add_shape(world, build_shape(spec, scene.restitution.value_or(0)));
+    world.shapes[i].restitution = spec.restitution.value_or(scene.restitution.value_or(0));
+    world.shapes[i].friction = spec.friction.value_or(scene.friction.value_or(0));
+  }
+  set_rules(world, scene);
+  for (int i = 0; i < static_cast<int>(world.bodies.size()); ++i) {
+    Body& body = world.bodies[static_cast<std::size_t>(i)];
+    body.asleep = false;
+    body.still = 0;
+    if (!world.effects.gyroscopic) body.free.reset();
+    if (world.effects.gyroscopic && !body.free) world.set_motion(i, body.state, body.time);
+  }
+  for (std::size_t i = world.bodies.size(); i < scene.bodies.size(); ++i) add_body(world, scene.bodies[i]);
   refuse_overlaps(world, scene);
   return world;
 }

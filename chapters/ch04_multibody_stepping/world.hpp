@@ -150,6 +150,10 @@ struct World {
 
 // Throws InputError for bad shapes (see build_shapes), and for two bodies that overlap by more than the tolerance.
 World build_world(const Scene& scene);
+// A world as `from` is now, its bodies' poses and velocities digit by digit, but with the rules of another scene: effects,
+// restitutions and frictions, tolerance, solver. The scene's first shapes and bodies are those of `from`, and keep their
+// hierarchies; more may follow. Bodies that sleep wake up. Between two frames only. Throws as build_world().
+World rebuild_world(const Scene& scene, const World& from);
 
 // What one step did and measured.
 struct StepReport {
@@ -173,6 +177,7 @@ struct StepReport {
   std::int64_t pairs = 0;     // of bodies whose swept boxes overlap
   std::int64_t advances = 0;  // proved steps, over all queries
   std::int64_t queries = 0, node_pairs = 0, ccd_ns = 0, lcp_ns = 0, step_ns = 0;
+  std::int64_t broad_ns = 0;  // of ccd_ns: boxes, and the tree of them, at the frame's start
 };
 
 // What an impulse was for: bodies that met, or (from chapter 5 on) a contact that lasts.

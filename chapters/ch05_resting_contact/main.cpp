@@ -1,6 +1,8 @@
 // Chapter 5: resting and sliding contact, by plans for the bodies that are nearer than the envelope; all else is chapter 4's.
 #include "ch05_resting_contact/clear/clear_run.hpp"
+#include "ch05_resting_contact/live_rest.hpp"
 #include "ch05_resting_contact/rest_run.hpp"
+#include "common/live/serve.hpp"
 
 namespace {
 
@@ -41,6 +43,9 @@ int main(int argc, char** argv) {
   chapter.explain = explain;
   chapter.run = run;
   chapter.check = check;
+  chapter.live = [](const SceneSource& source, int port, bool quiet) {
+    return live::serve(*world::make_live(source, resting::live_chapter()), port, quiet);
+  };
   chapter.pieces = slots(pieces);
   return run_program(argc, argv, chapter);
 }

@@ -123,15 +123,14 @@ Planned PilePlanner::make(const world::World& world, std::span<const Member> mem
   lost_ = 0;
   shortened_ = 0;
   courses_.start(world, members, now, length);
-  courses_.find(world, true);
-  rows_.start(world);
-  swept_ = gauss_seidel_->run(sweeps(options_.sweeps));
+  times_ = {};
+  search(world);
+  swept_ = sweep(sweeps(options_.sweeps));
   if (are_slow(members, kSettles * contacts_.margin() / options_.frame))
     while (swept_ * rows() < options_.settling_visits && gauss_seidel_->residual() > kSettled)
-      swept_ += gauss_seidel_->run(options_.sweeps);
+      swept_ += sweep(options_.sweeps);
   find_paths(world);
-  shares_.assign(courses_.members.size(), 1);
-  Shortening(world, courses_, shares_, blocked_).run(kPathFloor * contacts_.margin());
+  shorten(world);
   swept_ += rows_.drop_what_acts_on_air();
   gauss_seidel_->work_out_velocities(velocities_);
   for (std::size_t i = 0; i < shares_.size(); ++i) {
@@ -140,6 +139,25 @@ Planned PilePlanner::make(const world::World& world, std::span<const Member> mem
     lost_ += (1 - shares_[i]) * courses_.members[i].state.mass * velocities_[i].linear.norm();
   }
   return take(world);
+}
+
+// The pairs of the pile, their contacts, and a row for each.
+void PilePlanner::search(const world::World& world) {
+  const TimeInto time(times_.contacts_ns);
+  courses_.find(world, true);
+  rows_.start(world);
+}
+
+int PilePlanner::sweep(int count) {
+  const TimeInto time(times_.solver_ns);
+  return gauss_seidel_->run(count);
+}
+
+// Step 3.
+void PilePlanner::shorten(const world::World& world) {
+  const TimeInto time(times_.proofs_ns);
+  shares_.assign(courses_.members.size(), 1);
+  Shortening(world, courses_, shares_, blocked_).run(kPathFloor * contacts_.margin());
 }
 
 // Step 2.
@@ -152,11 +170,14 @@ void PilePlanner::find_paths(const world::World& world) {
     rows_.add_members();
     const PathOptions options{
         .required_gap = floor, .most_pairs = kMostNodePairs, .by_planes = true, .whole = true};
-    const bool clear = courses_.prove(world, [&](const Candidate&) { return options; });
+    const bool clear = [&] {
+      const TimeInto time(times_.proofs_ns);
+      return courses_.prove(world, [&](const Candidate&) { return options; });
+    }();
     if (clear || round == options_.rounds) return;
     for (int i = 0; i < static_cast<int>(courses_.candidates.size()); ++i)
       if (!courses_.candidates[at(i)].clear) rows_.look_again(world, i);
-    swept_ += gauss_seidel_->run(sweeps(options_.path_sweeps));
+    swept_ += sweep(sweeps(options_.path_sweeps));
   }
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "ch05_resting_contact/pile_rows.hpp"
+#include "ch05_resting_contact/stage_times.hpp"
 
 namespace fc::resting {
 
@@ -48,12 +49,16 @@ class PilePlanner {
   double residual() const { return gauss_seidel_->residual(); }
   int sweeps() const { return swept_; }
   int checked() const { return courses_.checked(); }
+  const StageTimes& times() const { return times_; }
   int rows() const { return rows_.count(); }
   double smallest_gap() const;  // m, of bodies in contact at the start, certified
 
  private:
   int sweeps(int least) const { return std::max(least, options_.visits / (1 + rows())); }
+  void search(const world::World& world);
+  int sweep(int count);
   void find_paths(const world::World& world);
+  void shorten(const world::World& world);
   Planned take(const world::World& world);
 
   Contacts& contacts_;
@@ -65,6 +70,7 @@ class PilePlanner {
   std::vector<double> shares_;             // the share of its path that a member goes
   std::vector<int> blocked_;
   double lost_ = 0;
+  StageTimes times_;
   bool gains_ = false;
   int shortened_ = 0, swept_ = 0;
 };

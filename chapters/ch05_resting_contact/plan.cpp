@@ -53,6 +53,7 @@ std::shared_ptr<const Planned> PlanMaker::make(const world::World& world, const 
   options_ = options;
   rest_speed_ = contacts_.margin() / dt;
   checked_ = 0;
+  rows_.times = {};
   const double left = dt - now;
   double length = left;
   bool may_change = true;
@@ -117,6 +118,7 @@ PlanResult PlanMaker::try_length(const world::World& world, const Island& island
     if (ends != PlanResult::proved) return ends;
     if (gains()) return PlanResult::unproved;
     if (may_change && (meeting_ = rows_.holds_until()) < length) return PlanResult::changes;
+    const TimeInto time(rows_.times.proofs_ns);
     courses_.find(world, false);
     for (std::size_t i = rows_.fast.size(); i < courses_.members.size(); ++i)
       for (std::vector<RigidBody>* bodies : {&rows_.fast, &rows_.path})

@@ -34,6 +34,7 @@ class PlanMaker {
   // Of the last make():
   double length() const { return courses_.length(); }  // s
   int checked() const { return checked_; }             // paths that it tried to prove
+  const StageTimes& times() const { return rows_.times; }
 
  private:
   PlanResult try_length(const world::World& world, const Island& island, double now, double length,

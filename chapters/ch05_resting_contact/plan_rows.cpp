@@ -109,6 +109,7 @@ bool PlanRows::solve() {
 }
 
 bool PlanRows::correct() {
+  const TimeInto time(times.corrections_ns);
   const double length = courses_.length();
   path = fast;
   corrections_.clear();
@@ -146,6 +147,7 @@ void PlanRows::gather(bool arrivals) {
 
 // Solves the gathered rows; the bodies get the velocities.
 bool PlanRows::push(std::vector<RigidBody>& bodies) {
+  const TimeInto time(times.solver_ns);
   return contacts_.empty() ||
          counts(law_.push({bodies, numbers_, contacts_, bends_}, approach_limits_, impulses_, options_));
 }

@@ -3,6 +3,7 @@
 
 #include "ch05_resting_contact/contact_law.hpp"
 #include "ch05_resting_contact/courses.hpp"
+#include "ch05_resting_contact/stage_times.hpp"
 
 namespace fc::resting {
 
@@ -58,6 +59,7 @@ class PlanRows {
   int solves = 0;
   double residual = 0;  // the worst of these solutions
   IslandResult failed;  // the last that failed
+  StageTimes times;     // since they were set to zero
 
  private:
   PlanResult close_ends();

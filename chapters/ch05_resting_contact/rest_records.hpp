@@ -22,6 +22,8 @@ struct Instant {
   std::vector<int> bodies = {};   // bodies whose plans end; the list grows
   std::vector<int> changed = {};  // bodies with a new motion
   double planned = 0;             // s, how long the plans that end here have lasted
+  double on_plans =
+      0;  // J, gained on the plans that end here, beyond the works of friction and kinematic bodies
   double gained =
       0;  // J, gained by all of them since their last motion began, beyond the work of kinematic bodies
 };

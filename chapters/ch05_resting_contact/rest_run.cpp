@@ -12,8 +12,11 @@ constexpr double kWide = 10;  // times g dt^2: a wider envelope is called wide
 }  // namespace
 
 std::vector<Effect> explain(const Scene& scene) {
+  return explain(scene, world::build_world(scene));
+}
+
+std::vector<Effect> explain(const Scene& scene, const world::World& world) {
   std::vector<Effect> list = world::explain(scene);
-  const world::World world = world::build_world(scene);
   const double margin = envelope_of(scene, world, scene.step->dt);
   const std::string why = scene.mark("envelope") ? "declared at " + scene.mark("envelope")->text()
                                                  : "derived: friction needs contacts that last";
@@ -44,19 +47,14 @@ std::vector<Effect> explain(const Scene& scene) {
   return list;
 }
 
-namespace {
-
-// frame: s, its start.
-void report_clash(const Scene& scene, const Clash& clash, double frame) {
+void report_clash(const Scene& scene, const Clash& clash, double frame_start) {
   const auto where = [&](int body) { return scene.bodies[static_cast<std::size_t>(body)].where.text(); };
   fmt::print(
       stderr,
       "{}: this kinematic body runs into the one of {}, which cannot give way either, at {:.6g} s; nothing "
       "stops it\n",
-      where(clash.kinematic), where(clash.other), frame + clash.time);
+      where(clash.kinematic), where(clash.other), frame_start + clash.time);
 }
-
-}  // namespace
 
 int run_scene(const Scene& scene, const RunContext& context, Summary& summary, const RunOptions& options) {
   std::unique_ptr<Resting> resting;

@@ -34,6 +34,13 @@ double energy_of(const world::World& world, const RigidBody& state) {  // J
          (world.effects.gravity ? state.mass * world.effects.gravity->dot(state.position) : 0.0);
 }
 
+double kinetic(std::span<const Member> members) {  // J
+  double sum = 0;
+  for (const Member& member : members)
+    if (member.dynamic) sum += member.state.kinetic_energy();
+  return sum;
+}
+
 // The body stands still until the frame's end.
 void stop(world::World& world, int kinematic, double now, double dt, world::StepReport& report) {
   world.advance_to(kinematic, now, now);
@@ -65,6 +72,12 @@ Resting::Resting(const Scene& scene, world::World& world, double dt, const RestO
   }
   options_.solver.still = kStill * envelope() / dt;
   world.rest_gap = 0.5 * envelope();
+}
+
+void Resting::take_over(const Resting& before, bool same_rules) {
+  if (before.envelope() != envelope()) return;
+  contacts_.take_over(before.contacts_);
+  if (same_rules && before.frame_ == frame_) standing_.take_over(before.standing_);
 }
 
 RestReport Resting::step(world::World& world, const world::Listeners& listeners) {
@@ -135,7 +148,7 @@ std::vector<int> Resting::go_on(Instant instant) {
     const int body = instant.bodies[i];
     if (piles_.of(body) == nullptr) {
       if (islands_.is_in_island(body)) continue;
-      Island island = islands_.grow(instant.world, body, piles_.pile_of());
+      Island island = grow(instant.world, body);
       if (is_pile(instant, island) || !go_on(instant, island)) {
         std::vector<int> bodies;
         for (const Member& member : island.members)
@@ -147,8 +160,15 @@ std::vector<int> Resting::go_on(Instant instant) {
     if (pile != nullptr && !pile->done) go_on(instant, *pile);
   }
   if (instant.now > 0) report_.correction_energy += std::max(0.0, instant.gained);
+  report_.plan_gain += std::max(0.0, instant.on_plans);
+  report_.plan_loss += std::min(0.0, instant.on_plans);
   if (instant.now >= dt_) instant.changed.clear();  // the frame is over
   return std::move(instant.changed);
+}
+
+Island Resting::grow(const world::World& world, int body) {
+  const TimeInto time(report_.times.contacts_ns);
+  return islands_.grow(world, body, piles_.pile_of());
 }
 
 // Whether the island contains bodies of a pile, or stepping it from event to event would take too much work.
@@ -171,7 +191,15 @@ bool Resting::go_on(Instant& instant, Island& island) {
   report_.largest_island = std::max(report_.largest_island, island.points());
   for (const IslandPair& pair : island.pairs)
     report_.smallest_gap = std::min(report_.smallest_gap, pair.contacts->gap);
+  const auto without_works = [&] {
+    return kinetic(island.members) - instant.report.kinematic_work - records_.tangential_work();
+  };
+  const double unresolved = without_works();
+  const int impacts = instant.report.impacts;
   const bool solved = island.pairs.empty() || resolve(instant, island);
+  // Without an impact, an instant only takes back what the plans that end here have borrowed: the other half of their pushes.
+  (instant.report.impacts > impacts ? report_.impact_energy : instant.on_plans) +=
+      without_works() - unresolved;
   set_motions(instant, island.members, before, work);
   const bool goes = instant.now >= dt_ || island.pairs.empty() || (solved && plan(instant, island));
   const double rest_speed = instant.now >= dt_ ? envelope() / dt_ : 0;
@@ -190,7 +218,12 @@ double Resting::stand(Instant& instant, std::span<Member> members) {
       const RunningPlan plan = plans_.end(instant.world, body.plan.number, instant.now);
       instant.planned = std::max(instant.planned, instant.now - plan.start);
       instant.bodies.insert(instant.bodies.end(), plan.what->bodies.begin(), plan.what->bodies.end());
+      const double work = instant.report.kinematic_work + records_.tangential_work();
       records_.add(instant, plan, dt_);
+      for (const int body_of_plan : plan.what->bodies)
+        instant.on_plans += energy_of(instant.world, instant.world.bodies[at(body_of_plan)].state) -
+                            energy_[at(body_of_plan)];
+      instant.on_plans -= instant.report.kinematic_work + records_.tangential_work() - work;
     }
     instant.world.advance_to(member.number, instant.now, instant.now);
     member.state = body.state;
@@ -226,7 +259,10 @@ bool Resting::resolve(Instant& instant, Island& island) {
   options.solver = options_.solver;
   std::vector<Member> before;
   if (ends) before = island.members;
-  const InstantResult result = resolve_instant(instant.world, island, envelope(), *law_, options);
+  const InstantResult result = [&] {
+    const TimeInto time(report_.times.solver_ns);
+    return resolve_instant(instant.world, island, envelope(), *law_, options);
+  }();
   if (!result.solved && options_.solver.chosen)
     throw lcp::unsolved(instant.world.solver, result.status, result.steps, result.residual);
   if (!result.solved) return false;
@@ -253,6 +289,7 @@ bool Resting::plan(Instant& instant, const Island& island) {
   }
   const auto planned = maker_.make(instant.world, island, instant.now, dt_, options_.solver, instant.report);
   report_.checked += maker_.checked();
+  report_.times.add(maker_.times());
   if (!planned) return false;
   const double length = maker_.length();
   if (start(instant, planned, length == left ? dt_ : instant.now + length))
@@ -284,6 +321,7 @@ void Resting::go_on(Instant& instant, PileList::Pile& pile) {
   for (bool stopped = false;;) {
     planned = pile_planner_.make(instant.world, members, instant.now, length, options);
     report_.checked += pile_planner_.checked();
+    report_.times.add(pile_planner_.times());
     report_.sweeps += pile_planner_.sweeps();
     const bool is_clear = pile_planner_.blocked().empty() && pile_planner_.shortened() == 0;
     if (!is_clear) piles_.was_shortened(pile);

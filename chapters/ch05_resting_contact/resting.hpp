@@ -28,9 +28,13 @@ struct RestReport {
   // J, what bodies in contact gained beyond the work of kinematic bodies: by corrections of positions, and by the
   // plans' error, which is of second order
   double correction_energy = 0;
-  double tangential_work = 0;       // J, of impulses along the surfaces
-  int shortened = 0;                // bodies of piles whose paths were shortened
-  double lost_impulse = 0;          // N s, the momentum that shortening took
+  double tangential_work = 0;  // J, of impulses along the surfaces
+  int shortened = 0;           // bodies of piles whose paths were shortened
+  double lost_impulse = 0;     // N s, the momentum that shortening took
+  // J, for an account of energies. What impacts took along the normals; and what plans, with the instants at their ends, took or
+  // added, beyond the works of friction and of kinematic bodies, summed over the plans that end together.
+  double impact_energy = 0, plan_loss = 0, plan_gain = 0;
+  StageTimes times = {};
   std::vector<Clash> clashes = {};  // of kinematic bodies, first reported in this frame; times in the frame
 };
 
@@ -52,6 +56,9 @@ class Resting : public world::Planner {
   // One frame of dt seconds (that of the constructor).
   RestReport step(world::World& world, const world::Listeners& listeners = {});
   double envelope() const { return contacts_.margin(); }
+  // Between frames, for a world of the same bodies and perhaps more, with the same tolerance: begins with the contacts that are
+  // known already, if the envelope is the same; and if all rules are the same, with the plans of islands that stand.
+  void take_over(const Resting& before, bool same_rules);
 
   std::vector<int> begin(world::World& world, double dt, world::StepReport& report,
                          const world::Listeners& listeners) override;
@@ -65,6 +72,7 @@ class Resting : public world::Planner {
   std::vector<int> go_on(Instant instant);
   bool go_on(Instant& instant, Island& island);
   void go_on(Instant& instant, PileList::Pile& pile);
+  Island grow(const world::World& world, int body);
   bool is_pile(const Instant& instant, const Island& island);
   double stand(Instant& instant, std::span<Member> members);
   void set_motions(Instant& instant, std::span<const Member> members, double before, double work);

@@ -1,6 +1,8 @@
 // What stands: bodies whose velocities are only round-off, and islands that repeat the last frame exactly.
 #pragma once
 
+#include <algorithm>
+
 #include "ch05_resting_contact/impact_law.hpp"
 #include "ch05_resting_contact/planned.hpp"
 
@@ -22,6 +24,10 @@ class Standing {
   Standing(const ContactLaw& law, double margin, std::size_t bodies)
       : law_(law), margin_(margin), pushed_(bodies), stopped_(bodies), passed_(bodies), known_(bodies) {}
   void next_frame();
+  // Knows what `before` knows of the bodies that it has, by the same law and rules.
+  void take_over(const Standing& before) {
+    std::copy(before.known_.begin(), before.known_.end(), known_.begin());
+  }
   // A frame of dt seconds, or a part of one, begins.
   void begin(const world::World& world, double dt);
 
