@@ -82,6 +82,7 @@ function(fc_add_sources name)
   list(FILTER sources EXCLUDE REGEX "main\\.cpp$")
   fc_add_library(${name} ${unity} SOURCES ${sources} LINKS ${ARG_LINKS})
   set_property(DIRECTORY APPEND PROPERTY FC_TAKEN ${sources})
+  fc_leave_out_studies(${name})
 endfunction()
 
 # fc_add_stage(NAME LINKS ...): the stage of the engine that the current chapter teaches, as a library: all files of its
@@ -110,6 +111,14 @@ function(fc_install_headers folder)
   install(DIRECTORY . DESTINATION include/first_contact/${folder} FILES_MATCHING PATTERN "*.hpp" PATTERN study EXCLUDE)
 endfunction()
 
+# With sanitizers, what measures the engine or makes the drawings' tables is left out, with its tests: it calls functions that
+# other tests run there.
+function(fc_leave_out_studies name)
+  if(FC_SANITIZE AND name MATCHES "_(study|pictures|cones|study_test)$")
+    set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)
+  endif()
+endfunction()
+
 # fc_add_program(NAME SOURCE LINKS ...): an executable. The chapter's own is named as its folder.
 function(fc_add_program name source)
   cmake_parse_arguments(ARG "" "" "LINKS" ${ARGN})
@@ -117,9 +126,7 @@ function(fc_add_program name source)
   set_target_properties(${name} PROPERTIES ENABLE_EXPORTS ON)  # to a learner's modules (common/pieces.hpp)
   target_link_libraries(${name} PRIVATE ${ARG_LINKS})
   target_precompile_headers(${name} REUSE_FROM fc_precompiled)
-  if(FC_SANITIZE AND name MATCHES "_pictures$")  # what makes the drawings' tables is run by no test
-    set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)
-  endif()
+  fc_leave_out_studies(${name})
 endfunction()
 
 # fc_add_test(NAME SOURCES ... LINKS ...): a GoogleTest executable whose tests CTest lists one by one. Tests find the
@@ -147,6 +154,10 @@ function(fc_add_test name)
                                              FC_BIN_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
   if(FC_SANITIZE)
     target_compile_definitions(${name} PRIVATE FC_SANITIZED)  # tests of many random scenes take fewer
+  endif()
+  fc_leave_out_studies(${name})
+  if(FC_SANITIZE AND name MATCHES "_study_test$")
+    return()
   endif()
   set(properties TIMEOUT ${ARG_TIMEOUT} ENVIRONMENT "RC_PARAMS=seed=20080101")
   if(ARG_TOGETHER OR FC_SANITIZE)
