@@ -14,7 +14,7 @@ namespace {
 constexpr int kPatience = 50;
 constexpr double kClearly = 0.9, kLeastShare = 1.0 / 16;
 
-constexpr double kLooksOfAStep = 20;
+constexpr double kLooksOfAFactor = 20;
 
 constexpr double kDead = 1e-12;  // of the largest: directions in which no impulse moves anything
 
@@ -183,13 +183,13 @@ double ContactSweeps::run_held_together(std::span<const char> holds, int most, d
 
 double ContactSweeps::together(std::span<const char> holds, int most, double enough,
                                const std::function<double()>& left) {
-  AugmentedLagrangian method(bodies_, blocks_);
+  AugmentedLagrangian method(bodies_, blocks_, matrix_);
   method.hold(holds);
   const double reached = method.run(most, enough, [&] {
     apply_impulses();
     return left();
   });
-  work_ += kLooksOfAStep * method.steps() * contacts();
+  work_ += kLooksOfAFactor * method.factors() * contacts();
   return reached;
 }
 

@@ -19,13 +19,11 @@ constexpr double kTolerance = 1e-14;
 struct Turn {
   int sweeps;
   double enough_of_few, enough;
-  bool again = true;
 };
-constexpr Turn kTurns[] = {{40, 1e-12, 1e-10, false}, {100, 1e-10, 1e-9}, {400, 1e-8, 1e-8}};
-constexpr double kWanted = 1e-12, kMore = 10;  // and kMore times that for very many contacts
+constexpr Turn kTurns[] = {{40, 1e-12, 1e-10}, {100, 1e-10, 1e-9}, {400, 1e-8, 1e-8}};
+constexpr double kWanted = 1e-12,
+                 kOneWanted = 100;  // kWanted for so many contacts, and in proportion for more
 constexpr int kRounds = 20;
-// A guess with a smaller residual needs no sweeps.
-constexpr double kNear = 1e-5;
 // The residual may be this share of the speed that counts as standing still.
 constexpr double kOfStill = 0.1;
 
@@ -42,9 +40,7 @@ constexpr double kOfStanding = 100, kOfArrival = 30, kOfIsland = 3e6, kOfBody = 
 constexpr double kOfNewton = 15, kOfPivot = 3;
 
 constexpr int kManySweeps = 600, kSweepsHeld = 100;
-// Of the largest velocity, for corrections; the second from kMany contacts on, where each round takes long.
-constexpr double kHeld = 1e-7, kHeldOfMany = 1e-5;
-constexpr int kMany = 1000;
+constexpr double kHeld = 1e-7;  // of the largest velocity, for corrections
 
 // A contact inside its cone by more than this share of it sticks.
 constexpr double kSticking = 1e-9;
@@ -102,6 +98,7 @@ IslandResult CoulombLaw::push(const ContactSet& set, std::span<const double> lim
   IslandResult result;
   result.residual = std::numeric_limits<double>::infinity();
   const std::size_t count = set.contacts.size();
+  const double wanted = kWanted * std::max(1.0, static_cast<double>(count) / kOneWanted);
   const double accepted = count <= kFew ? kAcceptedOfFew : kAccepted;
   start(set, offsets_, impulses, options.still);
   double& left = result.residual;
@@ -112,10 +109,11 @@ IslandResult CoulombLaw::push(const ContactSet& set, std::span<const double> lim
   };
   if (count > kFew) take(sweeps_.run(0, kTolerance));  // the guess may be good enough
   for (const Turn& turn : kTurns) {  // what one method has reached is a new start for the other
-    const double enough = count > kFewest ? turn.enough * (count < kMany ? 1 : kMore) : turn.enough_of_few;
-    if (left > kNear || turn.again) take(sweeps_.run(turn.sweeps, kTolerance));
+    const double enough = count > kFewest ? std::max(turn.enough, wanted) : turn.enough_of_few;
+    if (left <= enough) break;
+    take(sweeps_.run(turn.sweeps, kTolerance));
     if (left > enough && count <= kFewest) solve_by_matrix(set, Method::newton, impulses, result);
-    if (left > enough) take(sweeps_.run_together(kRounds, kWanted));
+    if (left > enough) take(sweeps_.run_together(kRounds, wanted));
     if (left <= enough) break;
   }
   work_ += sweeps_.take_work();
@@ -173,9 +171,8 @@ IslandResult CoulombLaw::correct(const ContactSet& set, std::span<const double> 
   for (std::size_t i = 0; i < limits.size(); ++i) offsets.push_back(limits[i] * set.contacts[i].normal);
   start(set, offsets, guesses, options.still);
   IslandResult result;
-  const double enough = set.contacts.size() < kMany ? kHeld : kHeldOfMany;
-  result.residual = sweeps_.run_held(holds_, kSweepsHeld, enough);
-  if (result.residual > enough) result.residual = sweeps_.run_held_together(holds_, kRounds, enough);
+  result.residual = sweeps_.run_held(holds_, set.contacts.size() <= kFew ? kSweepsHeld : 0, kHeld);
+  if (result.residual > kHeld) result.residual = sweeps_.run_held_together(holds_, kRounds, kHeld);
   work_ += sweeps_.take_work();
   result.solved = result.residual <= 1e-3;
   if (!result.solved) return result;
