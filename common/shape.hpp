@@ -49,7 +49,8 @@ struct Shape {
   bool convex() const { return kind != Kind::mesh && kind != Kind::compound; }
 };
 inline std::ostream& operator<<(std::ostream& out, Shape::Kind kind) {
-  constexpr const char* kNames[] = {"sphere", "capsule", "cylinder", "cone", "box", "hull", "mesh", "compound"};
+  constexpr const char* kNames[] = {"sphere", "capsule", "cylinder", "cone",
+                                    "box",    "hull",    "mesh",     "compound"};
   return out << kNames[static_cast<int>(kind)];
 }
 

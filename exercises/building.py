@@ -59,6 +59,8 @@ def what_is_built(object_file: str) -> str:
     """What an object file is part of, in words for a learner."""
     if chapter := re.match(r"chapters/ch0*(\d+)_", object_file):
         return f"chapter {chapter[1]}'s library (once, a minute or two)"
+    if "fc_precompiled.dir" in object_file:
+        return "headers that everything reads (once, about a minute)"
     if object_file.startswith("common/"):
         return "what all chapters share (once, about a minute)"
     if part := re.search(r"(ch\d+)_(ex\d+)_(tests|exercise|demo|piece)\.dir", object_file):

@@ -109,7 +109,18 @@ def check(exercise: Exercise, folder: Path, root: Path, limit: float) -> State:
     return state
 
 
+def is_begun(exercise: Exercise, root: Path) -> bool:
+    """False for a file with an FC_TODO that is as it was committed (copy_stub.cmake has the same rule): nothing need be built."""
+    try:
+        status = subprocess.run(["git", "-C", root, "status", "--porcelain", "--ignored", "--", exercise.file], capture_output=True, check=False)
+    except OSError:  # no git here
+        return True
+    return status.returncode != 0 or status.stdout != b"" or "FC_TODO(" not in (root / exercise.file).read_text(encoding="utf-8", errors="replace")
+
+
 def tested(exercise: Exercise, folder: Path, root: Path, limit: float) -> State:
+    if not is_begun(exercise, root):
+        return State(NOT_STARTED)
     kept = last_result.recall(exercise, folder, root)
     if kept:
         return State(**{**kept, "recalled": True})
@@ -134,6 +145,13 @@ def advice(exercise: Exercise, state: State, following: Exercise | None) -> str:
         return ""
     lines = [f"compare with solutions/{exercise.chapter}/{exercise.name}.cpp", f"see what it does: ./run see {exercise}"]
     return "\n".join(lines + ([f"next, {following}: {following.task}"] if following else []))
+
+
+def next_of(exercise: Exercise, exercises: list[Exercise], root: Path) -> Exercise | None:
+    """What to write after an exercise: after a piece the next piece, in the order of the chapters' texts."""
+    after = exercises[exercises.index(exercise) + 1:]
+    own = [later for later in after if pieces.is_piece(later, root)] if pieces.is_piece(exercise, root) else []
+    return next(iter(own or after), None)
 
 
 def show(exercise: Exercise, state: State, advised: str) -> None:
@@ -183,8 +201,7 @@ def main() -> int:
     for exercise in chosen:
         state = check(exercise, options.build, options.root, options.limit)
         done += state.done
-        after = exercises[exercises.index(exercise) + 1:]
-        show(exercise, state, advice(exercise, state, after[0] if after and len(chosen) == 1 else None))
+        show(exercise, state, advice(exercise, state, next_of(exercise, exercises, options.root) if len(chosen) == 1 else None))
     if len(chosen) == 1:
         name_program(chosen[0], options.build)
     print(f"{done} of {len(chosen)} exercise{'s' if len(chosen) > 1 else ''} done")

@@ -65,5 +65,5 @@ def count(exercises: list[Exercise], root: Path) -> str:
     mine = [exercise for exercise in pieces if place(exercise, root, ".so").exists()]
     if not pieces:
         return ""
-    line = f"the bunnies collide on {len(mine)} of {len(pieces)} pieces of your own"
+    line = f"the bunnies collide on {len(mine)} of {len(pieces)} pieces of yours"
     return f"{line}: {BUNNIES}" if mine else f"{line}; the first is {pieces[0].dotted}"

@@ -300,7 +300,7 @@ def gjk(runs: Path) -> plt.Figure:
         n = x / np.linalg.norm(x)
         lower = n @ s
         best = max(best, lower)
-        bare(axes, f"{k + 1}   {best:.2f} ≤ d ≤ {np.linalg.norm(x):.2f}")
+        bare(axes, f"{k + 1}:  {best:.2f} ≤ d ≤ {np.linalg.norm(x):.2f}")
         body(axes, outline_of, "#F2F2F2", "#BBBBBB", lw=0.8)
         for corner in before:  # of the simplex before: what is not kept
             if not any(np.allclose(corner, other) for other in kept):

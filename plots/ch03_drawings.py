@@ -114,7 +114,7 @@ def contact(run: Path):
     left.plot(*p, "o", ms=5, color=RED, zorder=5)
     note(left, p + [-0.13, 0.02], "$p$", RED, fontsize=11)
     arrow(left, b, b + 0.22 * named["v_B"], SKY)
-    note(left, b + 0.22 * named["v_B"] + [0.12, -0.02], "$v_B$", SKY, fontsize=10)
+    note(left, b + 0.22 * named["v_B"] + [0.17, 0.06], "velocity\nof $c_B$", SKY, ha="left", fontsize=9)
     note(left, (0, -0.3), "A, at rest")
     note(left, p + 2 * along + [-0.02, 0.1], "B")
     left.set(xlim=(-0.6, 1.55), ylim=(-0.62, 1.4))

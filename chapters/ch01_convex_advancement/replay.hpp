@@ -55,7 +55,7 @@ struct ReplayAnswer {
 //   h n.v + h^2/2 n.a + h n.(w x r)  and a rest of at most  h^2/2 |n x w| |w x r| ,
 // so the support function in the direction n + h (n x w) gives the whole body's farthest point after h
 // seconds up to that rest. What remains of the gap above the line is concave in h: if it is >= 0 at both ends
-// of a step, it is so in between. Steps are halved until that can be shown. The error of a step shrinks with
+// of a step, it is >= 0 between them. Steps are halved until both ends prove it. The error of a step shrinks with
 // its square, so whatever is true by more than rounding is shown in the end.
 struct ReplayProof {
   bool proved = false;
@@ -82,8 +82,8 @@ std::string replay_answer(double interval, const ReplayAnswer& answer, bool has_
 // tolerance at toc: features.csv has two points of the surfaces for that.
 std::vector<Refusal> replay(const ReplayQuery& query, const ReplayAnswer& answer,
                             const std::vector<CertificateRow>& rows);
-// The same for corners that fly straight: along a fixed n their gap is concave in time, so checking both ends
-// of a row suffices.
+// The same for corners that fly straight: along a fixed n their gap is concave in time, so the two ends of a
+// row prove the whole row.
 std::vector<Refusal> replay(const LinearQuery& query, double interval, const ReplayAnswer& answer,
                             const std::vector<CertificateRow>& rows);
 

@@ -42,8 +42,8 @@ bool small_enough(const Measures& m, Eigen::Index n) {
 constexpr double kHugeImpulse = 1e8;
 constexpr double kCertificateGap = 1e-9;
 
-// Where |A||z| is more than this many times |b|, so many digits cancel in A z + b that it is summed in
-// extended precision.
+// If |A||z| exceeds this many times |b|, digits cancel in A z + b, and the sum is taken in extended
+// precision.
 constexpr double kCancels = 16;
 
 }  // namespace

@@ -44,8 +44,8 @@ double closing_speed(const NearPair& pair, const Vec3& normal, const Witnesses& 
 std::vector<Vec3> faces_beside(const NearPair& pair, const ca::FeaturePair& features);
 std::vector<Vec3> faces_beside(const NearPair& pair, const hulls::LeafPair& leaves, const Witnesses& at);
 
-// Of the normals that separate the bodies (the gap along them is at least `least`, m): the one along which the bodies
-// close in slowest, if no faster than `fastest` (m/s). None if there is no such plane.
+// The normal along which the bodies close in slowest, among those that separate them by a gap of at least `least` (m).
+// None if the bodies close in faster than `fastest` (m/s) along each of these.
 std::optional<Vec3> slowest_plane(const NearPair& pair, const std::vector<Vec3>& normals, const Witnesses& at,
                                   double fastest, double least);
 

@@ -5,8 +5,8 @@
 
 namespace fc::world {
 
-// sn, cn and dn of u with parameter m, and the phase of Theta(u + i b | m) for a fixed b: the functions in the motion
-// of a free body. K is the quarter period, K' that of 1 - m, and 0 < b < K'.
+// sn, cn and dn of u with parameter m, and the phase of Theta(u + i b | m) for a fixed b. They describe
+// the motion of a free body. K is the quarter period, K' that of 1 - m, and 0 < b < K'.
 //
 // The series are in the powers q, q^4, q^9 of the nome q = exp(-pi K'/K). For m > 1/2 the nome exp(-pi K/K') is used,
 // at an imaginary argument (Jacobi's transformation): hyperbolic sines instead of sines. So the nome is at most

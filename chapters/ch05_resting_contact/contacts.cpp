@@ -14,7 +14,7 @@ namespace {
 // widest gap at a point of a manifold.
 constexpr double kSearchAgain = 1.0 / 4, kSlack = 1.0 / 64, kFar = 4;
 
-// Of the margin: a pair with a smaller certified gap is searched again, too.
+// A pair whose certified gap is below this share of the margin is searched again, too.
 constexpr double kLeastKnown = 1.0 / 16;
 
 // The relative accuracy of the distance of meshes that are not in contact.

@@ -8,7 +8,7 @@
 namespace fc::resting {
 namespace {
 
-// Of the margin: a contact that is farther apart than this and comes in fast will be an event of its own.
+// A fast contact whose gap is above this share of the margin becomes an event of its own.
 constexpr double kThere = 0.6;
 
 // After this number of rounds in one instant nothing bounces.

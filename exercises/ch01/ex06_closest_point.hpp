@@ -7,7 +7,8 @@ namespace fc::mine {
 
 using ca::clear::ClosestPoint;
 
-// simplex: 1 to 4 corners, m. They may be flat (three on a line, four in a plane), and some may be equal.
+// simplex: 1 to 4 corners, m, of any size: nanometres are no flatter than metres. They may be flat (three on a line, four in
+// a plane), and some may be equal.
 // The point of their convex hull that is closest to the origin, and the weight of each corner in it:
 //   point = sum of weight[i] * simplex[i],  every weight >= 0, their sum 1 (to 1e-12).
 // A weight of exactly 0 means that the corner is not needed. As few corners as possible have a weight: one if the point is a

@@ -21,7 +21,11 @@ using ca::clear::Gap;
 //   lower    the largest support gap found, less both radii and rounding_term(a, b, pose): never above the true
 //            distance
 //   normal   the unit vector from A to B along which `lower` was found
-//   point_a, point_b   on the shapes, where they are `upper` apart; with the radii
+//            Near contact, too: of boxes of 1 m that are 1 nm apart `lower` must be exact to 1e-11 m. There x/|x| has lost
+//            digits; the edge or the triangle that x lies on has them.
+//   point_a, point_b   on the shapes, where they are `upper` apart: the weights of x, put on the points of A and of B that made
+//            the corners; then moved by the radii, along x and against it. (Where the balls overlap, `upper` is 0, and the
+//            points lie past each other.)
 //   corners, from_a, from_b   the simplex that x is a point of: how many corners, and which point of each body made them
 // If x comes to within rounding_term() of the origin, or all four corners are needed, the cores overlap: upper = 0, corners = 0
 // and lower <= 0.

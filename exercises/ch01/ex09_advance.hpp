@@ -28,9 +28,10 @@ using ca::clear::witness;
 //   upper <= tolerance                  `contact`, or at t = 0 what status_at_start() says
 //   t is the interval's end             `separated`
 //   options.max_iterations advances made, or lower <= tolerance / 2, or t can no longer grow     `unresolved`
-// Otherwise advance as far as the gap certainly stays at tolerance / 2, and count it in result.iterations. With
-// options.certificate each advance is a row: t, n, gap_lower, a speed that the pair certainly does not exceed, with
-// gap_lower - speed * advance >= 0, and the advance.
+// Otherwise advance for as long as the gap certainly stays above tolerance / 2, at most to the interval's end (then t is
+// exactly options.interval), and count it in result.iterations. With options.certificate each advance is a row: t, n,
+// gap_lower, a speed, and the advance. The speed is one that the pair certainly does not exceed (that of speed_bound will
+// do), and gap_lower - speed * advance >= 0.
 // Guarantee: before result.toc the shapes are disjoint.
 ca::AdvanceResult advance(const ca::Convex& a, const ca::Motion& motion_a, const ca::Convex& b,
                           const ca::Motion& motion_b, const ca::AdvanceOptions& options,

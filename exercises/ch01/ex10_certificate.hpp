@@ -10,8 +10,9 @@ namespace fc::mine {
 // if row 3 is wrong (rows count from 0).
 //   rows: each claims that h seconds after row.t the gap along row.normal is at least gap_lower - speed_bound h, for every h
 //     from 0 to row.advance. They may come from any bound, and may be false.
+//   a, b: Convex::reach is that of the core; the radius does not add to it, since a ball stays round as it turns.
 //   motions: constant acceleration and constant spin.
-// ca::support_gap(a, b, PairPose(motion_a, motion_b, t), n) is the gap along n at t, less rounding. Neither GJK nor
+// ca::support_gap(a, b, PairPose(motion_a, motion_b, t), n) is the gap along n at t, less rounding_term(). Neither GJK nor
 // speed_bound() is needed.
 //
 // What must hold: every normal has length 1; the first row starts at 0, each other one where the one before it ends, and the

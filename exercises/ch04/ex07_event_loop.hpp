@@ -16,8 +16,8 @@ using world::clear::Frame;
 //                         no event in the queue now: it must be queried from now on, or it is lost.
 //                         If the event was stalled, and the pair is stalled again after that, the bodies of the instant are
 //                         frozen, and those whose motion this changes are renewed, too.
-// clear/pieces.hpp says what each function of Frame does. The results of solve() and freeze() are valid until the next
-// call of either.
+// clear/pieces.hpp says what each function of Frame does; to renew no bodies does nothing. The results of solve() and
+// freeze() are valid until the next call of either.
 void event_loop(Frame& frame);
 
 }  // namespace fc::mine

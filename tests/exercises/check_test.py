@@ -11,6 +11,9 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "exercises"))
+import building  # noqa: E402
+import check  # noqa: E402
 
 PROJECT = """
 cmake_minimum_required(VERSION 3.22)
@@ -30,7 +33,7 @@ fc_add_exercise(ch08 ex01_triple)
 add_executable(chapter chapter.cpp)
 add_executable(ch08_triples program.cpp)
 """
-HEADER = "#pragma once\nnamespace fc::exercises {\ndouble twice(double x);  // 2 x\n}\n"
+HEADER = "#pragma once\nnamespace fc::exercises {{\ndouble twice(double x);  // 2 x\n}}\n"
 STUB = '#include "{name}.hpp"\n\n#include "common/todo.hpp"\n\nnamespace fc::exercises {{\ndouble twice(double x) {{ FC_TODO("7.1"); }}\n}}\n'
 TESTS = """
 #include <gtest/gtest.h>
@@ -57,7 +60,7 @@ PIECE = {
         "// Caught by: Triple.OfTwo\n<<<<\ndouble triple(double x) { return 3 * x; }\n====\ndouble triple(double x) { return 3 + x; }\n>>>>\n",
     "program.cpp": '#include <cstdio>\nint main(int count, char** words) { for (int k = 1; k < count; ++k) std::puts(words[k]); }\n',
 }
-NONE = "the bunnies collide on 0 of 1 pieces of your own; the first is 8.1"
+NONE = "the bunnies collide on 0 of 1 pieces of yours; the first is 8.1"
 TASK = "write exercises/ch07/ex01_double.cpp; the task is 7.1 in exercises/ch07/README.md"
 DEMO = """
 #include <cstdio>
@@ -136,6 +139,13 @@ class CheckTest(unittest.TestCase):
     def mine(self) -> set[str]:
         return {file.name for file in (self.root / "build/mine").glob("*")}
 
+    def test_after_a_piece_comes_the_next_piece(self):
+        exercises = building.known_exercises(ROOT)
+        after = {str(exercise): str(check.next_of(exercise, exercises, ROOT)) for exercise in exercises}
+        self.assertEqual(after["ch03/ex06"], "ch04/ex06")
+        self.assertEqual(after["ch03/ex01"], "ch03/ex02")
+        self.assertEqual(after["ch06/ex01"], "ch06/ex02")  # the last piece: what is left are variants
+
     def test_a_piece_that_passes_is_handed_over(self):
         piece = self.root / "exercises/ch08/ex01_triple.cpp"
         self.addCleanup(lambda: piece.write_text(PIECE_STUB))
@@ -144,7 +154,7 @@ class CheckTest(unittest.TestCase):
         shutil.copy(self.root / "solutions/ch08/ex01_triple.cpp", piece)
         code, out = self.check("ch08")
         self.assertEqual(code, 0, out)
-        self.assertTrue(out.splitlines()[-1].startswith("the bunnies collide on 1 of 1 pieces of your own: build/bin/ch04"), out)
+        self.assertTrue(out.splitlines()[-1].startswith("the bunnies collide on 1 of 1 pieces of yours: build/bin/ch04"), out)
         self.assertEqual(self.mine(), {"ch08_ex01.so", "ch08_ex01.source"})
         self.assertEqual((self.root / "build/mine/ch08_ex01.source").read_text(), f"{piece.resolve()}\n{piece.read_text()}")
         with self.no_cmake() as environment:  # it is there, and what it was made from has not changed
@@ -179,6 +189,19 @@ class CheckTest(unittest.TestCase):
         code, out = self.check("ch07/ex01")
         self.assertEqual(code, 1)
         self.assertEqual(out, f"ch07/ex01  ex01_double              not started\n           {TASK}\n0 of 1 exercise done\n{NONE}\n")
+
+    def test_what_is_as_it_was_committed_is_not_built(self):
+        git = ["git", "-C", self.root, "-c", "user.name=one", "-c", "user.email=one@example.org"]
+        self.addCleanup(lambda: shutil.rmtree(self.root / ".git"))
+        for command in (["init", "--quiet"], ["add", "exercises"], ["commit", "--quiet", "--message", "stubs"]):
+            subprocess.run([*git, *command], check=True)
+        asked = self.run_tool("check", "ch07/ex01")
+        self.assertIn("not started", asked.stdout)
+        self.assertEqual(asked.stderr, "")
+        self.solve("return x * x;")
+        self.assertIn("1/3 tests pass", self.check("ch07/ex01")[1])
+        subprocess.run([*git, "commit", "--quiet", "--all", "--message", "mine"], check=True)
+        self.assertIn("1/3 tests pass", self.check("ch07/ex01")[1])
 
     def test_some_tests_pass(self):
         self.solve("return x * x;")
@@ -217,7 +240,7 @@ class CheckTest(unittest.TestCase):
         self.assertIn("does not compile", out)
         self.assertRegex(out, r"exercises/ch07/ex01_double\.cpp:4:\d+: .*y")
         self.write("double unrelated;\n")
-        self.assertRegex(self.check("ch07/ex01")[1], r"does not compile\n +exercises/ch07/ex01_double.cpp: twice.* is declared")
+        self.assertRegex(self.check("ch07/ex01")[1], r"does not compile\n +exercises/ch07/ex01_double.cpp: fc::exercises::twice.* is declared")
         self.write("this is no C++\n")
         stub = self.build / "stubs/ch07/ex01_double.cpp"
         self.assertEqual(stub.read_text(), STUB.format(name="ex01_double"))  # the proof has a copy of its own
@@ -308,6 +331,7 @@ class CheckTest(unittest.TestCase):
         self.solve("return 2 * x;")
         self.assertIn("building your file …\n", self.run_tool("check", "ch07/ex01").stderr)
         self.assertEqual(self.run_tool("check", "ch07/ex01").stderr, "")
+        self.assertNotIn(".gch", building.what_is_built("CMakeFiles/fc_precompiled.dir/cmake_pch.hxx.gch"))  # in a learner's words
 
     def test_see(self):
         done = self.run_tool("see", "ch07/ex01")
@@ -340,6 +364,9 @@ class CheckTest(unittest.TestCase):
             return {line.split()[2] for line in listed.splitlines() if " - " in line}
 
         self.assertEqual(failing(), set())
+        for mistake, code in (("square", 1), ("nobody", 0)):  # a mutant that is none fails no test, so its CTest test fails
+            done = subprocess.run([build / "bin/ch07_ex01_mutants"], env={**os.environ, "FC_MUTANT": mistake}, capture_output=True, check=False)
+            self.assertEqual(done.returncode, code, mistake)
         test = self.root / "tests/exercises/ch07/ex01_double_test.cpp"
         mutant = self.root / "tests/exercises/ch07/mutants/ex01_double.square.cpp"
         solution = self.root / "solutions/ch07/ex01_double.cpp"

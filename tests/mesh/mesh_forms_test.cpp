@@ -114,7 +114,7 @@ TEST(MeshForms, PlacesAreTheSameInEveryForm) {
 // As where two files were joined.
 TEST(MeshForms, AMarkInTheMiddleIsSeen) {
   EXPECT_TRUE(refusal("a.obj", "v 0 0 0\n\xEF\xBB\xBFv 1 0 0\n")
-                  .starts_with("a.obj:2:1: unknown keyword '\\xef\\xbb\\xbfv', "));
+                  .starts_with("a.obj:2:1: unknown keyword '\\xef\\xbb\\xbfv'; "));
 }
 
 TEST(MeshForms, WholeNumbers) {

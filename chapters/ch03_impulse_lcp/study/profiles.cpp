@@ -14,7 +14,7 @@ constexpr std::array kProfiled = {Family::random_spd, Family::spd_1e4,        Fa
                                   Family::box_heap};
 
 constexpr double kTolerance = 1e-8;  // asked of the iterative methods, and of every answer
-constexpr int kSweeps = 10'000;
+constexpr int kMostSweeps = 10'000;
 
 }  // namespace
 
@@ -41,7 +41,7 @@ void study_profiles(const StudyOptions& options) {
         for (const Method method : kMethods) {
           SolveOptions solve_options;
           if (iterative(method)) solve_options.tolerance = kTolerance;
-          if (method == Method::pgs) solve_options.limit = kSweeps;
+          if (method == Method::pgs) solve_options.limit = kMostSweeps;
           const Timed timed = timed_solve(p.lcp(), method, solve_options);
           const LcpResult& r = timed.result;
           if (r.status == Status::unsuited) continue;

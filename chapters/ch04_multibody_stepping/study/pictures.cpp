@@ -13,7 +13,7 @@
 namespace fc::world {
 namespace {
 
-constexpr double kGravity = 9.81;  // m/s^2
+constexpr double kFall = 9.81;  // m/s^2
 
 ShapeSpec ball_of(double radius) {
   ShapeSpec shape;
@@ -35,7 +35,7 @@ BodySpec moving(int shape, const Vec3& position, const Vec3& velocity, const Vec
 // A ball of radius 0.5 m above a floor whose top is at z = 0. Bodies: the ball, the floor.
 Scene above_a_floor(double height, double restitution) {
   Scene scene;
-  scene.gravity = Vec3(0, 0, -kGravity);
+  scene.gravity = Vec3(0, 0, -kFall);
   scene.restitution = restitution;
   ShapeSpec floor;
   floor.name = "floor";
@@ -175,7 +175,7 @@ void picture_bounce(const std::filesystem::path& out) {
   double height = kHeight, speed = 0;
   height_row("steps", 0, height);
   for (int k = 1; k * kStep <= kEnd + 1e-9; ++k) {
-    moreau_step(kStep, kGravity, kRestitution, height, speed);
+    moreau_step(kStep, kFall, kRestitution, height, speed);
     height_row("steps", k * kStep, height);
   }
   table.close();
@@ -205,7 +205,7 @@ void picture_boxes(const std::filesystem::path& out) {
                   moving(0, Vec3(3.6, -0.65, 0), Vec3(-0.5, 0.1, 0)),
                   moving(1, Vec3(0.6, 2.9, 0), Vec3(1.6, 0.2, 0), Vec3(0, 0, 3)),
                   moving(0, Vec3(4.2, 1.9, 0), Vec3(0.4, 0.5, 0))};
-  constexpr double kFrame = 1;
+  constexpr double kWholeFrame = 1;
   World world = build_world(scene);
   TableWriter boxes(out / "boxes.csv", {{"moment", ""},
                                         {"now", "s"},
@@ -225,8 +225,8 @@ void picture_boxes(const std::filesystem::path& out) {
   const auto look = [&](const World& at, double now) {
     const int count = static_cast<int>(at.bodies.size());
     for (int body = 0; body < count; ++body) {
-      if (moment == 0 || at.bodies[body].time == now) swept[body] = at.swept_bounds(body, now, kFrame);
-      const Vec3 here = at.state_at(body, now).position, there = at.state_at(body, kFrame).position;
+      if (moment == 0 || at.bodies[body].time == now) swept[body] = at.swept_bounds(body, now, kWholeFrame);
+      const Vec3 here = at.state_at(body, now).position, there = at.state_at(body, kWholeFrame).position;
       const Bounds& box = swept[body];
       boxes.row({moment, now, std::int64_t{body}, here.x(), here.y(), there.x(), there.y(), box.low.x(),
                  box.low.y(), box.high.x(), box.high.y()});
@@ -239,7 +239,7 @@ void picture_boxes(const std::filesystem::path& out) {
     ++moment;
   };
   look(world, 0);
-  step(world, kFrame, {.instant = [&](const World& at, double now) { look(at, now); }});
+  step(world, kWholeFrame, {.instant = [&](const World& at, double now) { look(at, now); }});
   boxes.close();
   pairs.close();
 }

@@ -9,8 +9,8 @@
 namespace fc::world {
 namespace {
 
-constexpr double kFrame = 1.0 / 60;  // s
-constexpr int kFrames = 60, kBodies = 216;
+constexpr double kFrameTime = 1.0 / 60;  // s
+constexpr int kFramesCounted = 60, kBodies = 216;
 
 struct Switch {
   const char* name;
@@ -72,13 +72,13 @@ void study_switches(const StudyOptions& options) {
     for (int repeat = 0; repeat < options.repeats; ++repeat) {
       World world = build_world(scene);
       if (one.in_world) one.in_world(world.effects);
-      run = run_frames(world, kFrame, kFrames);
+      run = run_frames(world, kFrameTime, kFramesCounted);
       times.push_back(run.total_ns());
     }
     std::sort(times.begin(), times.end());
     const double ns = times[times.size() / 2];
     table.row({std::string(one.scene), std::string(one.name), std::int64_t{run.sum.impacts}, run.sum.pairs,
-               run.sum.queries, run.sum.advances, std::int64_t{run.sum.lcp_rows}, ns / kFrames,
+               run.sum.queries, run.sum.advances, std::int64_t{run.sum.lcp_rows}, ns / kFramesCounted,
                ns / std::max(1, run.sum.impacts)});
     progress.update(++done);
   }

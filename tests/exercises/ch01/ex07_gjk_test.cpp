@@ -52,7 +52,9 @@ struct Any {
 TEST(Ex07Gjk, FaceBeforeFace) {
   const ca::ConvexCore cube = box(Vec3::Ones()), brick = box({1.2, 0.4, 0.3});
   const Gap g = gap_of(cube.convex(0), brick.convex(0), pose({0, 0, 0}, {3, 0.2, 0.1}));
-  EXPECT_NEAR(g.upper, 1.9, 1e-12) << "m: the cube ends at x = 0.5, the brick begins at 2.4";
+  EXPECT_NEAR(g.upper, 1.9, 1e-12)
+      << "m: the cube ends at x = 0.5, the brick begins at 2.4. A little more: the loop ended too soon, with `lower` at "
+      << g.lower << " m. 3.1: that is the brick's far side";
   EXPECT_NEAR(g.lower, 1.9, 1e-8) << "m: the plane between the two faces";
   EXPECT_NEAR((g.normal - Vec3::UnitX()).norm(), 0, 1e-7) << "from A to B, that is +x";
 }
@@ -98,10 +100,36 @@ TEST(Ex07Gjk, TheLowerBoundIsOne) {
     const double truth = ca::distance(a.convex(0.1), b.convex(0.2), at, {1e-12, 0, 128}).upper;
     ASSERT_LE(g.lower, truth)
         << "m: the true distance is smaller than what you call certified: an advance would step through";
-    ASSERT_LE(g.lower, ca::support_gap(a.convex(0.1), b.convex(0.2), at, g.normal) + 1e-14)
-        << "m: the gap along your normal is less than `lower`";
+    const double along = ca::support_gap(a.convex(0.1), b.convex(0.2), at, g.normal);
+    ASSERT_LE(g.lower, along + 1e-14)
+        << "m: the gap along your normal is less than `lower`, by " << g.lower - along
+        << " m. Much: `normal` is of another iteration. Some 1e-14: rounding_term()";
     ASSERT_GE(g.upper, truth - 1e-12) << "m: no two points are nearer than the distance";
     ASSERT_NEAR(g.normal.norm(), 1, 1e-14) << "the normal's length";
+  }
+}
+
+// The book's closest point, which remembers the directions that GJK went through.
+std::vector<Vec3> directions;
+clear::ClosestPoint remembered(std::span<const Vec3> simplex) {
+  const clear::ClosestPoint p = clear::closest_point(simplex);
+  if (p.point.norm() > 1e-3) directions.push_back(p.point.normalized());
+  return p;
+}
+
+TEST(Ex07Gjk, TheBestBoundCounts) {
+  Any any(7);
+  for (int i = 0; i < 400; ++i) {
+    const ca::ConvexCore a = any.hull(20), b = any.hull(20);
+    const ca::PairPose at = pose(any.vec(), any.vec() + Vec3(5 + any.up_to(4), 0, 0), any.turn(), any.turn());
+    directions.clear();
+    const Gap g = fc::mine::gap(a.convex(0), b.convex(0), at, 0.3, remembered);
+    if (g.upper < 1e-3) continue;
+    ASSERT_FALSE(directions.empty()) << "directions: the closest point was not asked of the argument";
+    for (std::size_t k = 0; k < directions.size(); ++k)
+      ASSERT_GE(g.lower, ca::support_gap(a.convex(0), b.convex(0), at, directions[k]) - 1e-9)
+          << "m: in iteration " << k << " of " << directions.size()
+          << " a larger gap was met. Lower bounds go up and down: keep the best, with its normal";
   }
 }
 
@@ -120,6 +148,27 @@ TEST(Ex07Gjk, TheBoundsMeet) {
     } else if (truth.status == ca::GjkResult::Status::overlapping && truth.upper == 0) {
       ASSERT_LE(g.lower, 1e-12) << "m: the bodies overlap, no gap can be certified";
     }
+  }
+}
+
+TEST(Ex07Gjk, ANanometreApartTheBoundsStillMeet) {
+  Any any(8);
+  const ca::ConvexCore a = box({1, 0.8, 0.6}), b = box({1.2, 0.4, 0.3});
+  for (int i = 0; i < 200; ++i) {
+    const Mat3 turn_a = any.turn(), turn_b = any.turn();
+    const Vec3 far = 3 * any.vec().normalized();
+    const ca::GjkResult there =
+        ca::distance(a.convex(0), b.convex(0), pose({0, 0, 0}, far, turn_a, turn_b), {1e-13, 0, 128});
+    const double apart = i % 2 == 0 ? 1e-7 : 1e-9;
+    const ca::PairPose at =
+        pose({0, 0, 0}, far - (there.upper - apart) * there.normal, turn_a, turn_b);  // B comes along n
+    const Gap g = gap_of(a.convex(0), b.convex(0), at, 1e-13);
+    ASSERT_NEAR(g.upper, apart, 1e-12) << "m: the witness points";
+    ASSERT_GE(g.lower, apart - 1e-11)
+        << "m: the plane of your normal leaves " << g.lower << " m of a gap of " << apart << " m, with "
+        << g.corners
+        << " corners. x is short here, a difference of coordinates of 1 m: x/|x| has lost digits. What direction of the "
+           "simplex has not?";
   }
 }
 

@@ -80,11 +80,12 @@ TEST(Ex09Advance, AMissIsProved) {
   const ca::ConvexCore core = ball();
   const ca::AdvanceResult r = ask(core.convex(0.5), motion({0, 0, 0}), core.convex(0.5),
                                   motion({5, 1.01, 0}, {-5, 0, 0}), options(2));
-  EXPECT_EQ(r.status, Status::separated);
+  EXPECT_EQ(r.status, Status::separated) << "B flies past, 1 cm away";
   EXPECT_EQ(r.toc, 2) << "s: clear until the interval's end";
   const ca::AdvanceResult away =
       ask(core.convex(0.5), motion({0, 0, 0}), core.convex(0.5), motion({2, 0, 0}, {1, 0, 0}), options(1000));
-  EXPECT_EQ(away.status, Status::separated);
+  EXPECT_EQ(away.status, Status::separated)
+      << "B goes away: the speed bound is below 0, and not to be divided by";
   EXPECT_EQ(away.iterations, 1) << "advances: they part, so one plane proves all of it (mind a speed <= 0)";
 }
 
@@ -136,6 +137,42 @@ TEST(Ex09Advance, AsksThePiecesThatItIsGiven) {
   EXPECT_EQ(gaps_asked, r.distance_calls) << "gaps asked of pieces.gap, against those reported";
   EXPECT_GT(gaps_asked, 10) << "gaps: with twice the speed each advance halves the gap";
   EXPECT_EQ(speeds_asked, r.iterations) << "speeds asked of pieces.speed_bound, against advances";
+}
+
+// Bounds that are far apart, as those of a GJK that stopped early: half of a large gap is certified, of a small one all but a
+// quarter of the tolerance.
+clear::Gap gap_of_a_poor_plane(const ca::Convex& a, const ca::Convex& b, const ca::PairPose& pose,
+                               double accuracy, clear::ClosestPointFunction* closest) {
+  clear::Gap g = clear::gap(a, b, pose, accuracy, closest);
+  g.lower = g.lower > 1 ? g.lower / 2 : g.lower - 1e-6 / 4;
+  return g;
+}
+
+TEST(Ex09Advance, EachBoundHasItsUse) {
+  const ca::ConvexCore core = ball();
+  clear::Pieces pieces;
+  pieces.gap = gap_of_a_poor_plane;
+  pieces.speed_bound = counted_speed;
+  const ca::AdvanceResult r = fc::mine::advance(core.convex(0.5), motion({0, 0, 0}), core.convex(0.5),
+                                                motion({5, 0, 0}, {-2, 0, 0}), options(3), pieces);
+  EXPECT_EQ(r.status, Status::contact);
+  ASSERT_FALSE(r.certificate.empty());
+  EXPECT_LE(r.certificate[0].advance, 0.5)
+      << "s: of a first gap of 4 m only 2 m are certified (`lower`), and the speed bound is 4 m/s. `upper` is the wrong bound to "
+         "advance by";
+  EXPECT_LE(r.gap_upper, 1e-6)
+      << "m: a contact's witness points are within the tolerance: `upper` says so, `lower` does not";
+}
+
+TEST(Ex09Advance, AFallGetsFaster) {
+  // 5 m at 10 m/s^2: 1 s.
+  const ca::ConvexCore core = ball();
+  const ca::AdvanceResult r = ask(core.convex(0.5), motion({0, 0, 0}), core.convex(0.5),
+                                  motion({0, 0, 6}, {0, 0, 0}, {0, 0, 0}, {0, 0, -10}), options(1.2));
+  EXPECT_EQ(r.status, Status::contact);
+  EXPECT_LE(r.toc, 1.0)
+      << "s: later would be too late. Is the speed that of the time of the look, and for the time that is left?";
+  EXPECT_NEAR(r.toc, 1.0, 1e-6) << "s";
 }
 
 TEST(Ex09Advance, RandomFlightsAreNeverLate) {

@@ -79,6 +79,18 @@ TEST(Ex10Certificate, ProvesRandomFlights) {
   }
 }
 
+TEST(Ex10Certificate, ProvesWhatStandsAndWhatParts) {
+  const ca::ConvexCore cube = box(Vec3::Ones());
+  const double gap = 2 - 1e-9;  // from x = 0.5 to x = 2.5
+  for (const double speed : {0.0, 1.0}) {
+    const ca::Motion stands = motion({0, 0, 0}), goes = motion({3, 0, 0}, {speed, 0, 0});
+    EXPECT_EQ(check_certificate({{0, Vec3::UnitX(), gap, 0, 100}}, cube.convex(0), stands, cube.convex(0),
+                                goes, 100),
+              "")
+        << "B goes away with " << speed << " m/s and nothing spins: the gap of 2 m is never used up";
+  }
+}
+
 TEST(Ex10Certificate, RefusesANanometreTooMuch) {
   const SpinningBox scene;
   Rows rows = scene.answer.certificate;

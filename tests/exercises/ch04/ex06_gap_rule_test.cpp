@@ -62,8 +62,9 @@ TEST(Ex06GapRule, SevenImpactsOneUponTheOtherSpendTheGap) {
 
 TEST(Ex06GapRule, TheLimitItselfIsLittle) {
   const GapScale scale{kMicro, 0.01 * kMicro, 1e-13};
-  EXPECT_TRUE(fc::mine::gap_rule(scale.little, scale).spent);
-  EXPECT_FALSE(fc::mine::gap_rule(1.001 * scale.little, scale).spent);
+  EXPECT_TRUE(fc::mine::gap_rule(scale.little, scale).spent)
+      << "a gap of exactly scale.little: the limit counts";
+  EXPECT_FALSE(fc::mine::gap_rule(1.001 * scale.little, scale).spent) << "a little more than scale.little";
 }
 
 TEST(Ex06GapRule, AGapOfRoundingAloneIsNotHalved) {
@@ -80,14 +81,16 @@ TEST(Ex06GapRule, BodiesFarFromTheOriginHaveMoreRounding) {
   const double rounding = 3e-8;  // m, more than a hundredth of the tolerance
   EXPECT_TRUE(fc::mine::gap_rule(2e-8, {kMicro, 0.01 * kMicro, rounding}).spent)
       << "a gap of 2e-8 m is more than a hundredth of the tolerance, but it may be nothing but rounding (3e-8 m)";
-  EXPECT_FALSE(fc::mine::gap_rule(4e-8, {kMicro, 0.01 * kMicro, rounding}).spent);
+  EXPECT_FALSE(fc::mine::gap_rule(4e-8, {kMicro, 0.01 * kMicro, rounding}).spent)
+      << "a gap of 4e-8 m is more than rounding (3e-8 m), and more than a hundredth of the tolerance";
 }
 
 TEST(Ex06GapRule, FarMayBeMoreThanTheTolerance) {  // chapter 5 keeps bodies farther apart
   const GapScale scale{1e-4, 1e-8, 1e-13};
   EXPECT_DOUBLE_EQ(fc::mine::gap_rule(1, scale).target, 5e-5) << "m";
   EXPECT_DOUBLE_EQ(fc::mine::gap_rule(2e-5, scale).target, 1e-5) << "m";
-  EXPECT_FALSE(fc::mine::gap_rule(2e-7, scale).spent);
+  EXPECT_FALSE(fc::mine::gap_rule(2e-7, scale).spent)
+      << "compare with scale.little, not with a part of scale.far";
 }
 
 TEST(Ex06GapRule, TheTargetIsAlwaysBelowTheGap) {

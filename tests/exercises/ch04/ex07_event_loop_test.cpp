@@ -114,7 +114,8 @@ TEST(Ex07EventLoop, OneOfTheTwoIsEnough) {  // the other one is a wall
   frame.events = {{Kind::contact, 0.5, 0, 4}};
   frame.changed = {4};
   fc::mine::event_loop(frame);
-  EXPECT_EQ(frame.log, (Log{"solve 0 4 at 0.5", "renew 4 at 0.5"}));
+  EXPECT_EQ(frame.log, (Log{"solve 0 4 at 0.5", "renew 4 at 0.5"}))
+      << "renewing body 4 has queried the pair 0 4 already: once is enough";
 }
 
 TEST(Ex07EventLoop, APairThatOnlyTouchesIsNotLost) {
@@ -128,11 +129,25 @@ TEST(Ex07EventLoop, APairThatOnlyTouchesIsNotLost) {
       << "this pair again in the frame";
 }
 
+TEST(Ex07EventLoop, AnImpactBesideThePairLeavesItToYou) {
+  Script frame;
+  frame.events = {{Kind::contact, 0.5, 1, 2}};
+  frame.changed = {5, 6};
+  fc::mine::event_loop(frame);
+  EXPECT_EQ(std::ranges::count(frame.log, "renew 5 6 at 0.5"), 1)
+      << fmt::format("your calls: {}", fmt::join(frame.log, ", "));
+  EXPECT_EQ(std::ranges::count(frame.log, "query 1 2 at 0.5"), 1)
+      << fmt::format("your calls: {}\n", fmt::join(frame.log, ", "))
+      << "elsewhere in the island bodies 5 and 6 have a new motion, but neither 1 nor 2 has: renewing 5 and 6 does not query the "
+      << "pair 1 2, whose event is off the queue";
+}
+
 TEST(Ex07EventLoop, SensorsAreReportedAndNotSolved) {
   Script frame;
   frame.events = {{Kind::sensed, 0.125, 2, 9}, {Kind::clear, 0.5, 1, 2}};
   fc::mine::event_loop(frame);
-  EXPECT_EQ(frame.log, (Log{"report 2 9 at 0.125", "query 1 2 at 0.5"}));
+  EXPECT_EQ(frame.log, (Log{"report 2 9 at 0.125", "query 1 2 at 0.5"}))
+      << "what a sensor sees is reported, and that is all: no impulse, and no query until one of the two has a new motion";
 }
 
 TEST(Ex07EventLoop, ImpactsThatPileUpAreFrozen) {
