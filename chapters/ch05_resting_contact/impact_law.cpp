@@ -28,7 +28,7 @@ struct Touching {
   std::vector<Vec3> guesses;  // N s, on B
   std::vector<char> is_fast;  // it approaches fast
   std::vector<char> lasts;    // a plan has pushed it until now
-  std::vector<ContactPoint*> points;
+  std::vector<std::uint64_t> keys;
 };
 
 Touching touching(const world::World& world, const Island& island, std::span<const RigidBody> bodies,
@@ -37,7 +37,7 @@ Touching touching(const world::World& world, const Island& island, std::span<con
   for (const IslandPair& pair : island.pairs) {
     const int number_a = island.members[at(pair.a)].number, number_b = island.members[at(pair.b)].number;
     const bool bounces = options.bounces(number_a) && options.bounces(number_b);
-    for (ContactPoint& point : pair.contacts->points) {
+    for (const ContactPoint& point : pair.contacts->points) {
       const lcp::Contact contact = contact_at(world, island.members, bodies, pair.a, pair.b, point);
       if (contact.gap > margin) continue;
       const bool fast = lcp::contact_velocity(bodies, contact) < -options.rest_speed && !point.lasts;
@@ -47,7 +47,7 @@ Touching touching(const world::World& world, const Island& island, std::span<con
       result.guesses.push_back(point.force * options.guess);
       result.is_fast.push_back(fast);
       result.lasts.push_back(point.lasts);
-      result.points.push_back(&point);
+      result.keys.push_back(point.key);
     }
   }
   return result;
@@ -183,7 +183,6 @@ InstantResult resolve_instant(const world::World& world, Island& island, double 
   for (std::size_t i = 0; i < points.contacts.size(); ++i) {
     lcp::Contact contact = points.contacts[i];
     const Vec3 impulse = stages.total[i];
-    if (!result.impact && options.guess > 0) points.points[i]->force = impulse / options.guess;
     if (!(impulse.dot(contact.normal) > 0)) continue;
     result.kinematic_work += lcp::kinematic_work(start, contact, impulse);
     const Vec3 before = lcp::relative_velocity(start, contact),
@@ -193,7 +192,7 @@ InstantResult resolve_instant(const world::World& world, Island& island, double 
     result.records.push_back(
         record_of(options.time, contact, before, after, impulse,
                   points.is_fast[i] ? world::ContactKind::impact : world::ContactKind::rest));
-    result.keys.push_back(points.points[i]->key);
+    result.keys.push_back(points.keys[i]);
   }
   result.energy_gain = kinetic(bodies) - kinetic(start) - result.kinematic_work;
   for (std::size_t i = 0; i < bodies.size(); ++i)

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "ch06_friction/cone.hpp"
 
@@ -24,11 +25,17 @@ constexpr double kMinimal = 1e-14;
 // none; and a step that gains no more than that round-off must gain no more than kFalls of the step before.
 constexpr double kArmijo = 1e-4, kShortestStep = 1e-3, kRounding = 1e-13, kFalls = 0.25;
 
-// A guess with a larger residual is a bad one. Then kStuckRounds rounds treat every contact as stuck, with the stiffness kStuck
-// and kSofter times that along the surface; the guess stays if more than the share kSlides of the contacts would need more
-// friction than they have.
-constexpr double kBadGuess = 1e-5, kStuck = 1e7, kSofter = 1e-2, kSlides = 1.0 / 16;
+// Of at least kMany contacts, a guess with a larger residual than kBadGuess is a bad one. Then kStuckRounds rounds treat every
+// contact as stuck, with the stiffness kStuck and kSofter times that along the surface; what they find is the new guess, unless
+// more than the share kMaySlide of the contacts would need more friction than they have.
+constexpr std::size_t kMany = 600;
+constexpr double kBadGuess = 1e-5, kStuck = 1e7, kSofter = 1e-2, kMaySlide = 1.0 / 16;
 constexpr int kStuckRounds = 3;
+
+// From this residual on, contacts inside their cones by more than this share are held where they are: see settle(). Tried again
+// when the residual is so much smaller.
+constexpr double kSettles = 1e-5, kWellInside = 1e-6, kSettlesAgain = 1e-2;
+constexpr int kSettlingRounds = 6, kSettlingSteps = 2;
 
 // Rounds may go on for ever: the residual must fall to this share within kIdleRounds.
 constexpr double kProgress = 0.5;
@@ -96,6 +103,11 @@ AugmentedLagrangian::AugmentedLagrangian(std::span<const MovedBody> bodies, std:
 
 AugmentedLagrangian::Piece AugmentedLagrangian::piece(std::size_t k, const Vec3& x) const {
   Piece result;
+  if (!inside_.empty()) {
+    result.D.diagonal() << (inside_[k] != 0), (inside_[k] > 1), (inside_[k] > 1);
+    result.impulse = inside_[k] ? Vec3(result.D * x) : guess_[k];
+    return result;
+  }
   if (sticks_ || !holds_.empty()) {  // normals push, tangents take whatever impulse they need
     const double push = x[0] > 0, hold = sticks_ ? blocks_[k].mu > 0 : holds_[k] != 0;
     result.D.diagonal() << push, hold, hold;
@@ -239,10 +251,10 @@ bool AugmentedLagrangian::adapt(double now, double before) {
 }
 
 // A start for what stands: forces that carry it if nothing can slide, and of these, which are many, some with little friction.
-// So most are well inside their cones, where P_K does not change with every step. Returns the residual of the better guess.
+// So most are well inside their cones, where P_K does not change with every step. Returns the residual of the guess.
 // ANCHOR: stick
-double AugmentedLagrangian::stick(double best, const std::function<double()>& left) {
-  const std::vector<Vec3> before = guess_;
+double AugmentedLagrangian::stick(double before, const std::function<double()>& left) {
+  const std::vector<Vec3> guess = guess_;
   guess_.assign(blocks_.size(), Vec3::Zero());
   stiff_ = kStuck;
   sticks_ = true;
@@ -258,20 +270,49 @@ double AugmentedLagrangian::stick(double best, const std::function<double()>& le
     outside += guess_[k].tail<2>().norm() > mu * guess_[k][0];
     guess_[k] = project_onto_cone(guess_[k], mu);
   }
+  const bool stands = static_cast<double>(outside) <= kMaySlide * static_cast<double>(blocks_.size());
+  if (!stands) guess_ = guess;
   for (std::size_t k = 0; k < blocks_.size(); ++k) blocks_[k].r = guess_[k];
-  const double now = left();
-  if (now < best && static_cast<double>(outside) <= kSlides * static_cast<double>(blocks_.size())) return now;
-  guess_ = before;
-  for (std::size_t k = 0; k < blocks_.size(); ++k) blocks_[k].r = guess_[k];
-  return best;
+  return stands ? left() : before;
 }
 // ANCHOR_END: stick
+
+// What sticks, sticks: the contacts inside their cones do not move, all others keep their impulses. That is linear, so its rounds
+// share one factor, and each takes off two digits. Returns the least residual; the guesses are those that leave it.
+double AugmentedLagrangian::settle(double best, const std::function<double()>& left) {
+  inside_.assign(blocks_.size(), 0);
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    const double mu = blocks_[k].mu;
+    const Vec3& r = guess_[k];
+    if (r[0] > 0 && mu == 0) inside_[k] = 1;
+    if (r[0] > 0 && mu > 0 && r.tail<2>().norm() < (1 - kWellInside) * mu * r[0]) inside_[k] = 2;
+  }
+  const double stiff = std::exchange(stiff_, kStiff);
+  const std::vector<double> shift = std::exchange(shift_, std::vector<double>(blocks_.size(), 0));
+  std::vector<Vec3> best_guess = guess_;
+  for (int round = 0; round < kSettlingRounds; ++round) {
+    VecX y = start_round();
+    for (int step = 0; step < kSettlingSteps; ++step)
+      y -= matrix_.solve(linearise(y));  // one, but for round-off
+    for (std::size_t k = 0; k < blocks_.size(); ++k)
+      blocks_[k].r = guess_[k] = project_onto_cone(piece(k, argument(k, y)).impulse, blocks_[k].mu);
+    const double now = left();
+    if (!(now < best)) break;
+    best = now;
+    best_guess = guess_;
+  }
+  inside_.clear();
+  guess_ = best_guess;
+  stiff_ = stiff;
+  shift_ = shift;
+  return best;
+}
 
 // ANCHOR: rounds
 double AugmentedLagrangian::run(int most, double enough, const std::function<double()>& left) {
   double best = left();
-  if (holds_.empty() && best > kBadGuess) best = stick(best, left);
-  double before = best, progress = best;
+  if (holds_.empty() && blocks_.size() >= kMany && best > kBadGuess) best = stick(best, left);
+  double before = best, progress = best, settles = kSettles;
   std::vector<Vec3> best_r = guess_;
   stiff_ = holds_.empty() ? std::clamp(kFirst / best, kSoftest, kStiff)
                           : kStiff;  // nothing slides, and no shift has to settle
@@ -286,6 +327,12 @@ double AugmentedLagrangian::run(int most, double enough, const std::function<dou
     if (now < best) {
       best = now;
       best_r = guess_;
+    }
+    if (holds_.empty() && best > enough && now == best && best < settles) {
+      const std::vector<Vec3> guess = guess_;
+      best = settle(best, left);
+      best_r = std::exchange(guess_, guess);
+      settles = kSettlesAgain * best;
     }
     ++idle;
     if (best < kProgress * progress) {

@@ -54,6 +54,7 @@ class AugmentedLagrangian {
   VecX start_round();
   void shift(const VecX& y, int round);
   void minimise(VecX& y);
+  double settle(double best, const std::function<double()>& left);
   double stick(double best, const std::function<double()>& left);
   bool adapt(double now, double before);
 
@@ -63,6 +64,8 @@ class AugmentedLagrangian {
   std::vector<Mat36> a_, b_;            // G's parts
   std::vector<Vec3> guess_;             // r̄
   std::vector<Vec3> stiffness_;
+  std::vector<char>
+      inside_;  // while it settles, of each contact: 1, its normal impulse is free; 2, all of it
   std::vector<double> shift_, shift_change_;
   double stiff_ = 0, stiffest_ = 0;  // σ over the trace of a contact's block, now and at most
   bool sticks_ = false, jumped_ = false;

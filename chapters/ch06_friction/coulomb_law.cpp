@@ -21,8 +21,12 @@ struct Turn {
   double enough_of_few, enough;
 };
 constexpr Turn kTurns[] = {{40, 1e-12, 1e-10}, {100, 1e-10, 1e-9}, {400, 1e-8, 1e-8}};
-constexpr double kWanted = 1e-12,
-                 kOneWanted = 100;  // kWanted for so many contacts, and in proportion for more
+// kWanted for kOneWanted contacts, and in proportion for more. From kMany contacts on, where each solve takes long, there is one
+// turn, which is content with kLoosely times as much.
+constexpr double kWanted = 1e-12, kOneWanted = 100, kLoosely = 10;
+constexpr std::size_t kMany = 600;
+// Of all impulses on a body that should cancel, the part that is round-off: see ContactLaw::left(). Of many contacts more.
+constexpr double kLeft = 6e-11, kLeftOfMany = 2e-10;
 constexpr int kRounds = 20;
 // The residual may be this share of the speed that counts as standing still.
 constexpr double kOfStill = 0.1;
@@ -35,12 +39,12 @@ constexpr double kAcceptedOfFew = 1e-6, kAccepted = 1e-4;
 
 // The work that a frame may take: see event_work(). Counted in visits to contacts, some 5 ms for each body, and much
 // more for few bodies, which should be exact.
-constexpr double kOfStanding = 100, kOfArrival = 30, kOfIsland = 3e6, kOfBody = 3e4;
+constexpr double kOfStanding = 15, kOfArrival = 30, kOfIsland = 3e6, kOfBody = 3e4;
 // In visits: a dense Newton step, for each contact; and a pivot.
 constexpr double kOfNewton = 15, kOfPivot = 3;
 
 constexpr int kManySweeps = 600, kSweepsHeld = 100;
-constexpr double kHeld = 1e-7;  // of the largest velocity, for corrections
+constexpr double kHeld = 1e-8;  // of the largest velocity, for corrections
 
 // A contact inside its cone by more than this share of it sticks.
 constexpr double kSticking = 1e-9;
@@ -98,7 +102,10 @@ IslandResult CoulombLaw::push(const ContactSet& set, std::span<const double> lim
   IslandResult result;
   result.residual = std::numeric_limits<double>::infinity();
   const std::size_t count = set.contacts.size();
-  const double wanted = kWanted * std::max(1.0, static_cast<double>(count) / kOneWanted);
+  const double loosely = count < kMany ? 1 : kLoosely;
+  const double wanted = count < kMany ? kWanted * std::max(1.0, static_cast<double>(count) / kOneWanted)
+                                      : loosely * kTurns[0].enough;
+  left_ = count < kMany ? kLeft : kLeftOfMany;
   const double accepted = count <= kFew ? kAcceptedOfFew : kAccepted;
   start(set, offsets_, impulses, options.still);
   double& left = result.residual;
@@ -109,12 +116,12 @@ IslandResult CoulombLaw::push(const ContactSet& set, std::span<const double> lim
   };
   if (count > kFew) take(sweeps_.run(0, kTolerance));  // the guess may be good enough
   for (const Turn& turn : kTurns) {  // what one method has reached is a new start for the other
-    const double enough = count > kFewest ? std::max(turn.enough, wanted) : turn.enough_of_few;
+    const double enough = count > kFewest ? loosely * turn.enough : turn.enough_of_few;
     if (left <= enough) break;
     take(sweeps_.run(turn.sweeps, kTolerance));
     if (left > enough && count <= kFewest) solve_by_matrix(set, Method::newton, impulses, result);
     if (left > enough) take(sweeps_.run_together(kRounds, wanted));
-    if (left <= enough) break;
+    if (left <= enough || count >= kMany) break;
   }
   work_ += sweeps_.take_work();
   if (left > accepted && count <= kFew) solve_by_matrix(set, Method::combined, impulses, result);
