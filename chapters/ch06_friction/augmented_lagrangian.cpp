@@ -277,6 +277,7 @@ double AugmentedLagrangian::stick(double before, const std::function<double()>& 
 }
 // ANCHOR_END: stick
 
+// ANCHOR: settle
 // What sticks, sticks: the contacts inside their cones do not move, all others keep their impulses. That is linear, so its rounds
 // share one factor, and each takes off two digits. Returns the least residual; the guesses are those that leave it.
 double AugmentedLagrangian::settle(double best, const std::function<double()>& left) {
@@ -307,6 +308,7 @@ double AugmentedLagrangian::settle(double best, const std::function<double()>& l
   shift_ = shift;
   return best;
 }
+// ANCHOR_END: settle
 
 // ANCHOR: rounds
 double AugmentedLagrangian::run(int most, double enough, const std::function<double()>& left) {

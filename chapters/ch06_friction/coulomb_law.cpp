@@ -68,7 +68,7 @@ bool asks_for_friction(const Scene& scene) {
          std::any_of(scene.pairs.begin(), scene.pairs.end(), rubs);
 }
 
-CoulombLaw::CoulombLaw(world::World& world) : world_(world) {
+CoulombLaw::CoulombLaw(world::World& world) : world_(world), left_(kLeft) {
   world.effects.arms = true;
 }
 

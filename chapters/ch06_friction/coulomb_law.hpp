@@ -50,7 +50,7 @@ class CoulombLaw : public resting::NormalLaw {
   std::vector<Vec3> offsets_;  // m/s, world: added to each contact's velocity
   std::vector<double> mu_;     // of each contact of the current set
   std::vector<char> holds_;    // of each contact of the last push: whether it sticks
-  double left_ = 0;            // of the last push
+  double left_;                // of the last push
 };
 
 }  // namespace fc::friction

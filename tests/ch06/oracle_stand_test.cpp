@@ -328,7 +328,7 @@ TEST(Stand, PyramidOf23Rows) {
   EXPECT_EQ(sweeps, 0) << "it is no pile,";
   EXPECT_GE(points, 2100) << "large as it is";
   EXPECT_FALSE(Judge(sim).overlap());
-  expect_laws(sim, "23 rows");
+  expect_laws(sim, "23 rows", 2e-10);
 }
 TEST(Stand, HeavyOnLight) {
   expect_stands(pile({1, 1, 1000}, 0.5, 5e-4), 1 / 60.0, 10, 1e-9, "1000 on 1 on 1 kg");
