@@ -17,16 +17,20 @@
 #include <functional>
 #include <vector>
 
-#include <Eigen/SparseCholesky>
-
+#include "ch06_friction/body_matrix.hpp"
 #include "ch06_friction/contact_block.hpp"
 
 namespace fc::friction {
 
 class AugmentedLagrangian {
  public:
-  // Starts from the blocks' r, and changes these alone. Bodies and blocks must outlive it.
-  AugmentedLagrangian(std::span<const MovedBody> bodies, std::span<ContactBlock> blocks);
+  struct Piece {  // P_K and its derivative
+    Vec3 impulse = Vec3::Zero();
+    Mat3 D = Mat3::Zero();
+  };
+  // Starts from the blocks' r, and changes these alone. Bodies, blocks and matrix must outlive it. A matrix that is used again
+  // for the same bodies keeps its order of elimination.
+  AugmentedLagrangian(std::span<const MovedBody> bodies, std::span<ContactBlock> blocks, BodyMatrix& matrix);
 
   // What contacts obey: Coulomb's law; or, after hold(), normal impulses as without friction, and, for contacts with
   // holds[i], tangents that do not move.
@@ -35,24 +39,23 @@ class AugmentedLagrangian {
   // Runs at most this many rounds. left: the residual that the blocks' r leave, counted from 0 on; rounds go on until
   // it is `enough`, or falls no more. The blocks get the best r; returns the residual that it leaves.
   double run(int most, double enough, const std::function<double()>& left);
-  int steps() const { return steps_; }  // of Newton's method, so far: each with one factorisation
+  int factors() const { return factors_; }  // factorisations so far
 
  private:
   using Mat36 = Eigen::Matrix<double, 3, 6>;
-  using Mat6 = Eigen::Matrix<double, 6, 6>;
-  struct Piece {  // P_K and its derivative
-    Vec3 impulse = Vec3::Zero();
-    Mat3 D = Mat3::Zero();
-  };
+  using Mat6 = BodyMatrix::Mat6;
   Piece piece(std::size_t k, const Vec3& x) const;
   Vec3 velocity(std::size_t k, const VecX& y) const;
   Vec3 argument(std::size_t k, const VecX& y) const;
   void add_impulse(std::size_t k, const Vec3& r, VecX& y) const;
   double value(const VecX& y) const;
   VecX linearise(const VecX& y);
+  void factor();
   VecX start_round();
   void shift(const VecX& y, int round);
   void minimise(VecX& y);
+  double settle(double best, const std::function<double()>& left);
+  double stick(double best, const std::function<double()>& left);
   bool adapt(double now, double before);
 
   std::span<ContactBlock> blocks_;
@@ -60,13 +63,16 @@ class AugmentedLagrangian {
   std::vector<int> place_a_, place_b_;  // the place of each block's bodies among those that move, or -1
   std::vector<Mat36> a_, b_;            // G's parts
   std::vector<Vec3> guess_;             // r̄
-  std::vector<double> stiffness_, shift_, shift_change_;
+  std::vector<Vec3> stiffness_;
+  std::vector<char>
+      inside_;  // while it settles, of each contact: 1, its normal impulse is free; 2, all of it
+  std::vector<double> shift_, shift_change_;
   double stiff_ = 0, stiffest_ = 0;  // σ over the trace of a contact's block, now and at most
-  bool jumped_ = false;
-  int size_ = 0, steps_ = 0;
-  std::vector<Eigen::Triplet<double>> entries_;
-  Eigen::SparseMatrix<double> matrix_;  // the lower half of I + G' σ D G
-  Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> factor_;
+  bool sticks_ = false, jumped_ = false;
+  int size_ = 0, factors_ = 0;
+  std::vector<Mat3> slopes_, factored_;     // σ D of each contact, at y, and in the matrix
+  std::vector<std::pair<int, int>> links_;  // places of bodies that touch
+  BodyMatrix& matrix_;                      // I + G' σ D G
 };
 
 }  // namespace fc::friction

@@ -14,16 +14,16 @@ namespace {
 constexpr int kPatience = 50;
 constexpr double kClearly = 0.9, kLeastShare = 1.0 / 16;
 
-constexpr double kLooksOfAStep = 20;
+constexpr double kLooksOfAFactor = 20;
 
-constexpr double kDead = 1e-12;  // of the largest: directions in which no impulse moves anything
+constexpr double kUnmoved = 1e-12;  // of the largest: directions in which no impulse moves anything
 
 // The pseudo-inverse of a symmetric positive semidefinite matrix.
 Eigen::Matrix2d inverse_where_it_moves(const Eigen::Matrix2d& D) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(D);
   Eigen::Vector2d inverse = Eigen::Vector2d::Zero();
   for (int k = 0; k < 2; ++k)
-    if (const double x = eigen.eigenvalues()[k]; x > kDead * eigen.eigenvalues()[1]) inverse[k] = 1 / x;
+    if (const double x = eigen.eigenvalues()[k]; x > kUnmoved * eigen.eigenvalues()[1]) inverse[k] = 1 / x;
   return eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
 }
 
@@ -153,7 +153,7 @@ double ContactSweeps::run_held(std::span<const char> holds, int most, double tol
     const Eigen::Vector2d c = block.delassus.block<2, 1>(1, 0);
     const Eigen::Vector2d still = q.tail<2>() - block.start.tail<2>();
     const double effective = a - c.dot(block.inverse * c), speed = q[0] - c.dot(block.inverse * still);
-    const double normal = effective > kDead * a ? std::max(0.0, -speed / effective) : 0.0;
+    const double normal = effective > kUnmoved * a ? std::max(0.0, -speed / effective) : 0.0;
     const Eigen::Vector2d tangent = -(block.inverse * (still + normal * c));
     return {normal, tangent[0], tangent[1]};
   });
@@ -183,13 +183,13 @@ double ContactSweeps::run_held_together(std::span<const char> holds, int most, d
 
 double ContactSweeps::together(std::span<const char> holds, int most, double enough,
                                const std::function<double()>& left) {
-  AugmentedLagrangian method(bodies_, blocks_);
+  AugmentedLagrangian method(bodies_, blocks_, matrix_);
   method.hold(holds);
   const double reached = method.run(most, enough, [&] {
     apply_impulses();
     return left();
   });
-  work_ += kLooksOfAStep * method.steps() * contacts();
+  work_ += kLooksOfAFactor * method.factors() * contacts();
   return reached;
 }
 

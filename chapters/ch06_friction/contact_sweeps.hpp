@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "ch06_friction/body_matrix.hpp"
 #include "ch06_friction/contact_block.hpp"
 
 namespace fc::friction {
@@ -39,7 +40,7 @@ class ContactSweeps {
   // The worst violation of Coulomb's law at a contact (cone_violation), over the largest velocity without impulses or due to them.
   double residual() const;
 
-  // Contact visits since the last call; a step of Newton's method takes as long as many visits to each contact.
+  // Contact visits since the last call; a factorisation takes as long as many visits to each contact.
   double take_work() { return std::exchange(work_, 0.0); }
 
   Vec3 impulse(int contact) const {
@@ -62,6 +63,7 @@ class ContactSweeps {
   double least_ = 0, work_ = 0;
   std::vector<MovedBody> bodies_;
   std::vector<ContactBlock> blocks_;
+  BodyMatrix matrix_;
 };
 
 }  // namespace fc::friction

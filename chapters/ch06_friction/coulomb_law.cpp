@@ -19,13 +19,15 @@ constexpr double kTolerance = 1e-14;
 struct Turn {
   int sweeps;
   double enough_of_few, enough;
-  bool again = true;
 };
-constexpr Turn kTurns[] = {{40, 1e-12, 1e-10, false}, {100, 1e-10, 1e-9}, {400, 1e-8, 1e-8}};
-constexpr double kWanted = 1e-12, kMore = 10;  // and kMore times that for very many contacts
+constexpr Turn kTurns[] = {{40, 1e-12, 1e-10}, {100, 1e-10, 1e-9}, {400, 1e-8, 1e-8}};
+// kWanted for kOneWanted contacts, and in proportion for more. From kMany contacts on, where each solve takes long, there is one
+// turn, which is content with kLoosely times as much.
+constexpr double kWanted = 1e-12, kOneWanted = 100, kLoosely = 10;
+constexpr std::size_t kMany = 600;
+// Of all impulses on a body that should cancel, the part that is round-off: see ContactLaw::left(). Of many contacts more.
+constexpr double kLeft = 6e-11, kLeftOfMany = 2e-10;
 constexpr int kRounds = 20;
-// A guess with a smaller residual needs no sweeps.
-constexpr double kNear = 1e-5;
 // The residual may be this share of the speed that counts as standing still.
 constexpr double kOfStill = 0.1;
 
@@ -37,14 +39,12 @@ constexpr double kAcceptedOfFew = 1e-6, kAccepted = 1e-4;
 
 // The work that a frame may take: see event_work(). Counted in visits to contacts, some 5 ms for each body, and much
 // more for few bodies, which should be exact.
-constexpr double kOfStanding = 100, kOfArrival = 30, kOfIsland = 3e6, kOfBody = 3e4;
+constexpr double kOfStanding = 15, kOfArrival = 30, kOfIsland = 3e6, kOfBody = 3e4;
 // In visits: a dense Newton step, for each contact; and a pivot.
 constexpr double kOfNewton = 15, kOfPivot = 3;
 
 constexpr int kManySweeps = 600, kSweepsHeld = 100;
-// Of the largest velocity, for corrections; the second from kMany contacts on, where each round takes long.
-constexpr double kHeld = 1e-7, kHeldOfMany = 1e-5;
-constexpr int kMany = 1000;
+constexpr double kHeld = 1e-8;  // of the largest velocity, for corrections
 
 // A contact inside its cone by more than this share of it sticks.
 constexpr double kSticking = 1e-9;
@@ -68,7 +68,7 @@ bool asks_for_friction(const Scene& scene) {
          std::any_of(scene.pairs.begin(), scene.pairs.end(), rubs);
 }
 
-CoulombLaw::CoulombLaw(world::World& world) : world_(world) {
+CoulombLaw::CoulombLaw(world::World& world) : world_(world), left_(kLeft) {
   world.effects.arms = true;
 }
 
@@ -102,6 +102,10 @@ IslandResult CoulombLaw::push(const ContactSet& set, std::span<const double> lim
   IslandResult result;
   result.residual = std::numeric_limits<double>::infinity();
   const std::size_t count = set.contacts.size();
+  const double loosely = count < kMany ? 1 : kLoosely;
+  const double wanted = count < kMany ? kWanted * std::max(1.0, static_cast<double>(count) / kOneWanted)
+                                      : loosely * kTurns[0].enough;
+  left_ = count < kMany ? kLeft : kLeftOfMany;
   const double accepted = count <= kFew ? kAcceptedOfFew : kAccepted;
   start(set, offsets_, impulses, options.still);
   double& left = result.residual;
@@ -112,11 +116,12 @@ IslandResult CoulombLaw::push(const ContactSet& set, std::span<const double> lim
   };
   if (count > kFew) take(sweeps_.run(0, kTolerance));  // the guess may be good enough
   for (const Turn& turn : kTurns) {  // what one method has reached is a new start for the other
-    const double enough = count > kFewest ? turn.enough * (count < kMany ? 1 : kMore) : turn.enough_of_few;
-    if (left > kNear || turn.again) take(sweeps_.run(turn.sweeps, kTolerance));
-    if (left > enough && count <= kFewest) solve_by_matrix(set, Method::newton, impulses, result);
-    if (left > enough) take(sweeps_.run_together(kRounds, kWanted));
+    const double enough = count > kFewest ? loosely * turn.enough : turn.enough_of_few;
     if (left <= enough) break;
+    take(sweeps_.run(turn.sweeps, kTolerance));
+    if (left > enough && count <= kFewest) solve_by_matrix(set, Method::newton, impulses, result);
+    if (left > enough) take(sweeps_.run_together(kRounds, wanted));
+    if (left <= enough || count >= kMany) break;
   }
   work_ += sweeps_.take_work();
   if (left > accepted && count <= kFew) solve_by_matrix(set, Method::combined, impulses, result);
@@ -173,9 +178,8 @@ IslandResult CoulombLaw::correct(const ContactSet& set, std::span<const double> 
   for (std::size_t i = 0; i < limits.size(); ++i) offsets.push_back(limits[i] * set.contacts[i].normal);
   start(set, offsets, guesses, options.still);
   IslandResult result;
-  const double enough = set.contacts.size() < kMany ? kHeld : kHeldOfMany;
-  result.residual = sweeps_.run_held(holds_, kSweepsHeld, enough);
-  if (result.residual > enough) result.residual = sweeps_.run_held_together(holds_, kRounds, enough);
+  result.residual = sweeps_.run_held(holds_, set.contacts.size() <= kFew ? kSweepsHeld : 0, kHeld);
+  if (result.residual > kHeld) result.residual = sweeps_.run_held_together(holds_, kRounds, kHeld);
   work_ += sweeps_.take_work();
   result.solved = result.residual <= 1e-3;
   if (!result.solved) return result;

@@ -32,7 +32,7 @@ class CoulombLaw : public resting::NormalLaw {
   bool looks_at_bends() const override { return true; }
   double event_work(double arrivals, int rank) const override;
   double most_work(int bodies) const override;
-  double left() const override { return 6e-11; }
+  double left() const override { return left_; }
   std::unique_ptr<resting::GaussSeidel> gauss_seidel() const override;
   // Until the first sliding contact comes to rest.
   double holds_until(const ContactSet& mean, std::span<const RigidBody> now, std::span<const Vec3> impulses,
@@ -50,6 +50,7 @@ class CoulombLaw : public resting::NormalLaw {
   std::vector<Vec3> offsets_;  // m/s, world: added to each contact's velocity
   std::vector<double> mu_;     // of each contact of the current set
   std::vector<char> holds_;    // of each contact of the last push: whether it sticks
+  double left_;                // of the last push
 };
 
 }  // namespace fc::friction

@@ -298,6 +298,38 @@ TEST(Stand, TenTurnedBoxes) {
 TEST(Stand, FiftyBoxes) {
   expect_stands(pile(std::vector<double>(50, 1.0), 0.5, 5e-4), 1 / 60.0, 0.5, 1e-9, "50 boxes");
 }
+// 276 boxes, with gaps of a twentieth of the envelope: they are put right, and what stands then is only repeated.
+TEST(Stand, PyramidOf23Rows) {
+  constexpr int kRows = 23;
+  std::string bodies;
+  for (int row = 0; row < kRows; ++row)
+    for (int i = 0; i < kRows - row; ++i)
+      bodies += "  - {shape: box, position: " +
+                list({1.01 * (i - 0.5 * (kRows - row - 1)), 0, row + 0.5 + 1e-4 * (row + 1)}) + "}\n";
+  Rubbing sim(rough(0.6, 2e-3) + "  box: {box: {size: [1, 1, 1]}, mass: 1}\n" + on_floor + bodies, 1 / 60.0);
+  const Drift start(sim);
+  int corrections = 0, points = 0, sweeps = 0;
+  const auto look = [&] {
+    corrections += sim.last.correction > 0;
+    points = std::max(points, sim.last.largest_island);
+    sweeps += sim.last.sweeps;
+  };
+  sim.run(1, look);
+  const Drift settled(sim);
+  sim.run(9, look);
+  double aside = 0;
+  for (std::size_t i = 0; i < start.start.size(); ++i)
+    aside = std::max(aside, (sim.world.bodies[i].state.position - start.start[i].position).head<2>().norm());
+  tell("23 rows: aside {:.3g}, corrections in {} frames, {} points", aside, corrections, points);
+  EXPECT_LE(aside, 1e-7) << "m";
+  EXPECT_LE(settled.of(sim), 1e-9) << "m";
+  EXPECT_LE(corrections, 55) << "frames";
+  EXPECT_EQ(sim.last.step.solves, 0) << "it is repeated";
+  EXPECT_EQ(sweeps, 0) << "it is no pile,";
+  EXPECT_GE(points, 2100) << "large as it is";
+  EXPECT_FALSE(Judge(sim).overlap());
+  expect_laws(sim, "23 rows", 2e-10);
+}
 TEST(Stand, HeavyOnLight) {
   expect_stands(pile({1, 1, 1000}, 0.5, 5e-4), 1 / 60.0, 10, 1e-9, "1000 on 1 on 1 kg");
 }
