@@ -46,8 +46,13 @@ find_package(Qhull REQUIRED)
 find_package(Threads REQUIRED)
 # Where cpp-httplib is a compiled library, its header must be read with the settings that it was compiled with: these are in the
 # file for pkg-config alone.
-find_package(PkgConfig REQUIRED)
-pkg_check_modules(HTTPLIB REQUIRED IMPORTED_TARGET cpp-httplib)
+find_package(PkgConfig QUIET)
+if(PKG_CONFIG_FOUND)
+  pkg_check_modules(HTTPLIB QUIET IMPORTED_TARGET cpp-httplib)
+endif()
+if(NOT HTTPLIB_FOUND)
+  message(WARNING "cpp-httplib or pkg-config is missing: the option --live will say so, and nothing of it is tested")
+endif()
 
 # What nearly every file includes, compiled once.
 file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/precompiled.cpp CONTENT "// Carries the precompiled header; no code.\n")
