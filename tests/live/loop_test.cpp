@@ -76,8 +76,9 @@ class Running : public testing::Test {
 TEST_F(Running, SimulatedTimeNeverRunsAhead) {
   EXPECT_TRUE(soon([&] { return scene_.frames >= 20; }));
   const auto frames = scene_.frames.load();
-  const auto passed = Clock::now().time_since_epoch() - scene_.begun.load();  // since the first was due
-  EXPECT_LE(0.005 * static_cast<double>(frames - 1), std::chrono::duration<double>(passed).count());
+  const auto passed = Clock::now().time_since_epoch() - scene_.begun.load();  // since the first frame
+  // The first frame may have begun late, and one frame is caught up.
+  EXPECT_LE(0.005 * static_cast<double>(frames - 2), std::chrono::duration<double>(passed).count());
 }
 
 TEST_F(Running, SlowMotionIsSlower) {
