@@ -62,8 +62,8 @@ class Account {
 class LiveWorld final : public live::Simulation {
  public:
   LiveWorld(const SceneSource& source, const LiveChapter& chapter)
-      : source_(source), text_(read_text_file(source.file)), chapter_(chapter) {
-    start(read(source_.edits));
+      : source_(source), text_(read_text_file(source.file)), chapter_(chapter), first_(read(source_.edits)) {
+    start(first_);
   }
 
   std::string title() const override { return now_->scene.name; }
@@ -92,6 +92,7 @@ class LiveWorld final : public live::Simulation {
   SceneSource source_;
   std::string text_;  // the file's, as it was at the start
   LiveChapter chapter_;
+  Scene first_;  // as it was read at the start: what an effect is switched on with again
   std::unique_ptr<Pipeline> now_;
   std::vector<Throw> balls_;
   Hand hand_;
@@ -238,6 +239,7 @@ std::vector<live::EffectState> LiveWorld::effects() const {
                                                                 {"friction", "lcp_ms"},
                                                                 {"impact law", "lcp_ms"}};
   std::vector<live::EffectState> list = now_->effects;
+  offer_values_of(first_, list);
   NamedNumbers left = last_.stages;
   for (const auto& [effect, stage] : kStages)
     for (live::EffectState& state : list) {

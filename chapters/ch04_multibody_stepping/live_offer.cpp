@@ -131,6 +131,12 @@ std::vector<live::EffectState> effects_offered(const LiveChapter& chapter, const
   return list;
 }
 
+void offer_values_of(const Scene& scene, std::vector<live::EffectState>& effects) {
+  for (live::EffectState& effect : effects)
+    if (const Switch* s = switch_of(effect.name); s != nullptr && !effect.on)
+      effect.key = std::string(s->key) + "=" + value_for_on(*s, scene);
+}
+
 std::vector<live::Knob> knobs_offered(const LiveChapter& chapter, const Scene& scene, const World& world,
                                       const LiveStep& step) {
   const auto text = [](double x) { return fmt::format("{}", x); };

@@ -11,6 +11,8 @@ bool changes_live(const std::string& key);
 // The effects that are on, and those that the scene could have.
 std::vector<live::EffectState> effects_offered(const LiveChapter& chapter, const Scene& scene,
                                                const World& world);
+// What is off is switched on with this scene's values, where it has them.
+void offer_values_of(const Scene& scene, std::vector<live::EffectState>& effects);
 
 std::vector<live::Knob> knobs_offered(const LiveChapter& chapter, const Scene& scene, const World& world,
                                       const LiveStep& step);

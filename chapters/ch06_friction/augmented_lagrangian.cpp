@@ -157,7 +157,6 @@ VecX AugmentedLagrangian::linearise(const VecX& y) {
   return gradient;
 }
 
-// ANCHOR: factor
 void AugmentedLagrangian::factor() {
   ++factors_;
   factored_ = slopes_;
@@ -181,7 +180,6 @@ void AugmentedLagrangian::factor() {
   }
   matrix_.factor();
 }
-// ANCHOR_END: factor
 
 // ANCHOR: minimise
 void AugmentedLagrangian::minimise(VecX& y) {
@@ -252,7 +250,6 @@ bool AugmentedLagrangian::adapt(double now, double before) {
 
 // A start for what stands: forces that carry it if nothing can slide, and of these, which are many, some with little friction.
 // So most are well inside their cones, where P_K does not change with every step. Returns the residual of the guess.
-// ANCHOR: stick
 double AugmentedLagrangian::stick(double before, const std::function<double()>& left) {
   const std::vector<Vec3> guess = guess_;
   guess_.assign(blocks_.size(), Vec3::Zero());
@@ -275,7 +272,6 @@ double AugmentedLagrangian::stick(double before, const std::function<double()>& 
   for (std::size_t k = 0; k < blocks_.size(); ++k) blocks_[k].r = guess_[k];
   return stands ? left() : before;
 }
-// ANCHOR_END: stick
 
 // ANCHOR: settle
 // What sticks, sticks: the contacts inside their cones do not move, all others keep their impulses. That is linear, so its rounds

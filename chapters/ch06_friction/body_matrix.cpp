@@ -41,7 +41,6 @@ void BodyMatrix::start(int bodies, std::span<const std::pair<int, int>> links) {
 }
 
 // A column of the factor has the blocks of the matrix's column, and those of each column of which it is the first row.
-// ANCHOR: order
 void BodyMatrix::order(std::span<const std::pair<int, int>> links) {
   links_.assign(links.begin(), links.end());
   const int count = static_cast<int>(place_.size());
@@ -73,7 +72,6 @@ void BodyMatrix::order(std::span<const std::pair<int, int>> links) {
     parent.insert(parent.end(), column.begin() + 1, column.end());
   }
 }
-// ANCHOR_END: order
 
 void BodyMatrix::add(int i, int j, const Mat6& block) {
   const int p = place_[index(i)], q = place_[index(j)];

@@ -257,6 +257,18 @@ TEST(Live, APathCannotBeSavedInItsMiddle) {
                           });
 }
 
+TEST(Live, AnEffectComesBackWithTheValueOfTheScene) {
+  std::string text = bouncing;
+  text.replace(text.find("-9.81"), 5, "-1.62");
+  const LiveScene scene = open(text);
+  scene->set("gravity", "none");
+  const auto effects = scene->effects();
+  const auto gravity =
+      std::find_if(effects.begin(), effects.end(), [](const auto& e) { return e.name == "gravity"; });
+  ASSERT_NE(gravity, effects.end());
+  EXPECT_EQ(gravity->key, "gravity=[0, 0, -1.62]");
+}
+
 TEST(Live, OffersItsEffectsAndKnobs) {
   const LiveScene scene = open();
   const auto find = [](const auto& list, const std::string& name) {
