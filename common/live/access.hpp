@@ -1,4 +1,4 @@
-// Who may talk to a live scene: the pages that were opened by the address that the program printed. No HTTP here.
+// Which requests are let through to a live scene: those of pages that know the printed address. No HTTP here.
 #pragma once
 
 #include <optional>

@@ -50,7 +50,7 @@ struct Snapshot {
   double dt = 0;  // s, of a frame
   std::vector<Pose> poses;
   std::vector<ContactMark> contacts;
-  // Of the last frame, in ms: "ccd_ms", "lcp_ms", …; they add up to step_ms.
+  // ms in each stage of the last frame ("ccd_ms", "lcp_ms", …). Their sum is step_ms.
   std::vector<std::pair<std::string, double>> stages;
   double step_ms = 0;
   double energy = 0, kinetic = 0, potential = 0;  // J

@@ -170,7 +170,7 @@ class LiveTest(unittest.TestCase):
         self.wait(lambda: len(self.done("drop")) == 1)
         self.assertLess(len(self.done("drag")), 20)
         seen = self.page.js(f"onScreen({self.done('drag')[-1]['to']})")
-        self.assertAlmostEqual(seen["x"], x + 80, delta=1.5, msg="the last place is told, whatever was left out")
+        self.assertAlmostEqual(seen["x"], x + 80, delta=1.5, msg="the server gets the last place, even where places before it were left out")
 
     def test_the_background_and_what_is_static_turn_the_view(self):
         self.open(running=False)

@@ -26,11 +26,7 @@ TEST(Live, ABodyDraggedIntoAWallStaysOutside) {
 
 TEST(Live, ASavedSceneRunsAlike) {
   const LiveScene scene = open();
-  scene->grab(4, scene->snapshot().poses[4].position + Vec3(0.1, 0, 0.2));
-  scene->drag({0, 0, 2});
-  for (int frame = 0; frame < 40; ++frame) scene->step();
-  scene->throw_ball({-3, 0, 3}, {5, 0, 0});
-  for (int frame = 0; frame < 10; ++frame) scene->step();
+  pull_and_throw(scene, Vec3(0.1, 0, 0.2));
   expect_saved_runs_alike(scene,
                           [](const fc::Scene& saved, const fc::RunContext& context, fc::Summary& summary) {
                             fc::world::run_scene(saved, context, summary, fc::world::step);
@@ -304,17 +300,7 @@ TEST(Live, OffersItsEffectsAndKnobs) {
 }
 
 TEST(Live, StagesAddUpToTheStep) {
-  const LiveScene scene = open();
-  for (int frame = 0; frame < 50; ++frame) {
-    scene->step();
-    const auto now = scene->snapshot();
-    double sum = 0;
-    for (const auto& [stage, time] : now.stages) {
-      EXPECT_GE(time, 0) << stage;
-      sum += time;
-    }
-    EXPECT_NEAR(sum, now.step_ms, 1e-9 + 1e-3 * now.step_ms);
-  }
+  expect_stages_add_up(open());
 }
 
 // A search that may look at one pair of nodes alone fails: the frame is taken back, and a setting helps.

@@ -28,11 +28,7 @@ TEST(LiveRest, ABodyDraggedIntoAWallStaysOutside) {
 
 TEST(LiveRest, ASavedSceneRunsAlike) {
   const LiveScene scene = open();
-  scene->grab(4, scene->snapshot().poses[4].position);
-  scene->drag({0, 0, 2});
-  for (int frame = 0; frame < 40; ++frame) scene->step();
-  scene->throw_ball({-3, 0, 3}, {5, 0, 0});
-  for (int frame = 0; frame < 10; ++frame) scene->step();
+  pull_and_throw(scene, fc::Vec3::Zero());
   expect_saved_runs_alike(scene, run);
 }
 
@@ -65,17 +61,7 @@ TEST(LiveRest, AccountIsClosedInAPile) {
 }
 
 TEST(LiveRest, StagesAddUpToTheStep) {
-  const LiveScene scene = open();
-  for (int frame = 0; frame < 50; ++frame) {
-    scene->step();
-    const auto now = scene->snapshot();
-    double sum = 0;
-    for (const auto& [stage, time] : now.stages) {
-      EXPECT_GE(time, 0) << stage;
-      sum += time;
-    }
-    EXPECT_NEAR(sum, now.step_ms, 1e-9 + 1e-3 * now.step_ms);
-  }
+  expect_stages_add_up(open());
 }
 
 // A wider envelope, or a narrower one, is taken while bodies rest: no overlap, and the account stays closed.

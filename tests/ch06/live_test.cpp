@@ -30,11 +30,7 @@ TEST(LiveFriction, ABodyDraggedIntoAWallStaysOutside) {
 
 TEST(LiveFriction, ASavedSceneRunsAlike) {
   const LiveScene scene = open();
-  scene->grab(4, scene->snapshot().poses[4].position);
-  scene->drag({0, 0, 2});
-  for (int frame = 0; frame < 40; ++frame) scene->step();
-  scene->throw_ball({-3, 0, 3}, {5, 0, 0});
-  for (int frame = 0; frame < 10; ++frame) scene->step();
+  pull_and_throw(scene, fc::Vec3::Zero());
   expect_saved_runs_alike(scene, run);
 }
 

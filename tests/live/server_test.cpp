@@ -1,4 +1,4 @@
-// The server, from a page's side: every answer of STREAM.md, and who is refused.
+// What the server answers to a page: each line of STREAM.md, and each reason to refuse.
 #include <gmock/gmock.h>
 
 #include <set>

@@ -175,6 +175,28 @@ inline void play(const LiveScene& scene, int frames, int look, unsigned seed) {
   EXPECT_LE(entry(scene->snapshot(), "impacts"), 0);
 }
 
+// Lifts body 4 by a point (arm: m, from its centre), and throws a ball at it; 50 frames.
+inline void pull_and_throw(const LiveScene& scene, const fc::Vec3& arm) {
+  scene->grab(4, scene->snapshot().poses[4].position + arm);
+  scene->drag({0, 0, 2});
+  for (int frame = 0; frame < 40; ++frame) scene->step();
+  scene->throw_ball({-3, 0, 3}, {5, 0, 0});
+  for (int frame = 0; frame < 10; ++frame) scene->step();
+}
+
+inline void expect_stages_add_up(const LiveScene& scene) {
+  for (int frame = 0; frame < 50; ++frame) {
+    scene->step();
+    const auto now = scene->snapshot();
+    double sum = 0;
+    for (const auto& [stage, time] : now.stages) {
+      EXPECT_GE(time, 0) << stage;
+      sum += time;
+    }
+    EXPECT_NEAR(sum, now.step_ms, 1e-9 + 1e-3 * now.step_ms);
+  }
+}
+
 // Saves, and runs the saved text from a file: the same poses in all frames.
 inline void expect_saved_runs_alike(
     const LiveScene& scene,
