@@ -8,6 +8,7 @@ known, there is no last result."""
 import hashlib
 import json
 import re
+import subprocess
 from pathlib import Path
 
 from building import Exercise
@@ -36,19 +37,38 @@ def sources(exercise: Exercise, root: Path) -> list[str]:
     return [text, *map(stamp, sorted(files))]
 
 
+def told_to_make(objects: list[Path], start: Path) -> list[Path]:
+    """What the compiler read for these, by the file that it wrote for each: "object: file file …", with folded lines."""
+    found = []
+    for file in objects:
+        text = Path(f"{file}.d").read_text(encoding="utf-8", errors="replace").replace("\\\n", " ")
+        found += [start / name.replace("\\ ", " ") for name in re.split(r"(?<!\\)\s+", text.partition(": ")[2].strip()) if name]
+    return found
+
+
+def told_to_ninja(objects: list[Path], folder: Path) -> list[Path]:
+    """The same by Ninja's record, which it keeps in place of those files: below each object a line for each file."""
+    asked = ["ninja", "-C", folder, "-t", "deps", *(file.relative_to(folder) for file in objects)]
+    said = subprocess.run(asked, capture_output=True, text=True, errors="replace", check=False).stdout
+    if said.count(": #deps ") != len(objects):
+        return []
+    return [folder / line.strip() for line in said.splitlines() if line.startswith(" ")]
+
+
 def read_by_the_compiler(exercise: Exercise, folder: Path) -> list[Path]:
     """All files that the compiler read for the learner's file and for the tests; empty if that is not known."""
     found = []
     for kind in ("exercise", "tests"):
-        listings = [file for start in (folder / "tests/exercises", folder)
-                    for file in (start / "CMakeFiles" / f"{exercise.target(kind)}.dir").rglob("*.d") if file.name.endswith(".o.d")]
-        if not listings:
+        for start in (folder / "tests/exercises", folder):
+            objects = list((start / "CMakeFiles" / f"{exercise.target(kind)}.dir").rglob("*.o"))
+            if objects:
+                read = told_to_ninja(objects, folder) if (folder / "build.ninja").exists() else told_to_make(objects, start)
+                break
+        else:
             return []
-        for listing in listings:
-            start = listing.parents[[p.name for p in listing.parents].index("CMakeFiles") + 1]
-            text = listing.read_text(encoding="utf-8", errors="replace").replace("\\\n", " ")
-            names = re.split(r"(?<!\\)\s+", text.partition(": ")[2].strip())
-            found += [start / name.replace("\\ ", " ") for name in names if name]
+        if not read:
+            return []
+        found += read
     return found
 
 

@@ -84,7 +84,11 @@ print(sys.argv[1] + ".png")
 """
 
 
-class CheckTest(unittest.TestCase):
+class Project(unittest.TestCase):
+    """The small project, built by Ninja where there is one, as ./run builds."""
+
+    generator = "Ninja" if shutil.which("ninja") else "Unix Makefiles"
+
     @classmethod
     def setUpClass(cls):
         cls.temporary = tempfile.TemporaryDirectory()
@@ -105,7 +109,7 @@ class CheckTest(unittest.TestCase):
                                f"tests/exercises/ch07/{name}_test.cpp": TESTS, f"solutions/ch07/{name}.cpp": SOLUTION, f"tests/exercises/ch07/mutants/{name}.square.cpp": MUTANT}.items():
                 (root / file).write_text(text.format(name=name))
         cls.build = root / "build"
-        configured = subprocess.run(["cmake", "-S", root, "-B", cls.build], capture_output=True, text=True, check=False)
+        configured = subprocess.run(["cmake", "-G", cls.generator, "-S", root, "-B", cls.build], capture_output=True, text=True, check=False)
         assert configured.returncode == 0, configured.stdout + configured.stderr
 
     @classmethod
@@ -139,6 +143,17 @@ class CheckTest(unittest.TestCase):
     def mine(self) -> set[str]:
         return {file.name for file in (self.root / "build/mine").glob("*")}
 
+    @contextlib.contextmanager
+    def no_cmake(self):
+        """An environment whose cmake builds nothing."""
+        with tempfile.TemporaryDirectory() as folder:
+            cmake = Path(folder) / "cmake"
+            cmake.write_text("#!/bin/sh\necho no build was wanted\nexit 1\n")
+            cmake.chmod(0o755)
+            yield {"PATH": f"{folder}:{os.environ['PATH']}"}
+
+
+class CheckTest(Project):
     def test_after_a_piece_comes_the_next_piece(self):
         exercises = building.known_exercises(ROOT)
         after = {str(exercise): str(check.next_of(exercise, exercises, ROOT)) for exercise in exercises}
@@ -319,15 +334,6 @@ class CheckTest(unittest.TestCase):
         self.solve("return x * x;")
         self.assertIn("1/3 tests pass", self.check("ch07/ex01", GTEST_FILTER="Double.OfTwo")[1])
 
-    @contextlib.contextmanager
-    def no_cmake(self):
-        """An environment whose cmake builds nothing."""
-        with tempfile.TemporaryDirectory() as folder:
-            cmake = Path(folder) / "cmake"
-            cmake.write_text("#!/bin/sh\necho no build was wanted\nexit 1\n")
-            cmake.chmod(0o755)
-            yield {"PATH": f"{folder}:{os.environ['PATH']}"}
-
     def test_it_says_what_it_builds(self):
         self.solve("return 2 * x;")
         self.assertIn("building your file …\n", self.run_tool("check", "ch07/ex01").stderr)
@@ -381,6 +387,11 @@ class CheckTest(unittest.TestCase):
                 self.assertEqual(failing(), failed)
             finally:
                 file.write_text(former)
+
+
+class CheckByMakeTest(Project):
+    generator = "Unix Makefiles"  # tells otherwise than Ninja what the compiler read
+    test_the_last_result_holds_until_something_changes = CheckTest.test_the_last_result_holds_until_something_changes
 
 
 if __name__ == "__main__":
