@@ -253,6 +253,23 @@ TEST(Live, APathCannotBeSavedInItsMiddle) {
                           });
 }
 
+TEST(LiveTwin, APathGoesOnInTheCopy) {
+  const auto folder = scratch("paths");
+  std::ofstream(folder / "lift.csv") << "t,px,py,pz,qw,qx,qy,qz\n0,0,0,0,1,0,0,0\n0.3,0,0,1,0.8,0,0,0.6\n";
+  const LiveScene of = open(
+      "step: {dt: 0.01, duration: 0.1}\nshapes:\n  box: {box: {size: [1, 1, 1]}, mass: 1}\nbodies:\n"
+      "  - {shape: box, kinematic: true, path: " +
+      (folder / "lift.csv").string() + "}\n  - {shape: box, position: [0, 0, 1.5]}\n");
+  for (int frame = 0; frame < 11; ++frame) of->step();
+  TwoScenes two(of);
+  two.copies.begin_twin();
+  for (int frame = 0; frame < 40; ++frame) {
+    two.step();
+    expect_alike(two);
+  }
+  EXPECT_EQ(two.twin().now.poses[0].position.z(), 1);
+}
+
 TEST(Live, AnEffectComesBackWithTheValueOfTheScene) {
   std::string text = bouncing;
   text.replace(text.find("-9.81"), 5, "-1.62");
