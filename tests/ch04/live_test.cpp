@@ -253,6 +253,28 @@ TEST(Live, APathCannotBeSavedInItsMiddle) {
                           });
 }
 
+// What a chapter tells of the next frame it works out on a copy, hand and all: the scene stands, and then makes that frame.
+TEST(Live, TheAccountOfAFrameIsMadeOnACopy) {
+  fc::world::LiveChapter chapter = fc::world::live_chapter();
+  const auto told = [](std::int64_t frame, double t0, const Vec3& at) {
+    return fmt::format("{} {} {} {} {}", frame, t0, at.x(), at.y(), at.z());
+  };
+  chapter.algorithm = [&](const fc::Scene& scene, fc::world::World& copy, std::int64_t frame, double t0) {
+    fc::world::step(copy, scene.step->dt);
+    return told(frame, t0, copy.bodies[4].state.position);
+  };
+  const LiveScene scene{bouncing, chapter};
+  for (int frame = 0; frame < 10; ++frame) scene->step();
+  scene->grab(4, scene->snapshot().poses[4].position);
+  scene->drag({0, 0, 2});
+  const std::string before = bits(scene->snapshot());
+  const std::string account = scene->algorithm();
+  EXPECT_EQ(bits(scene->snapshot()), before);
+  scene->step();
+  EXPECT_EQ(account, told(10, 10 * 0.01, scene->snapshot().poses[4].position));
+  EXPECT_NE(refusal([] { open()->algorithm(); }), "");
+}
+
 TEST(LiveTwin, APathGoesOnInTheCopy) {
   const auto folder = scratch("paths");
   std::ofstream(folder / "lift.csv") << "t,px,py,pz,qw,qx,qy,qz\n0,0,0,0,1,0,0,0\n0.3,0,0,1,0.8,0,0,0.6\n";
