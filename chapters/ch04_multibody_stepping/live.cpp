@@ -80,6 +80,7 @@ class LiveWorld final : public live::Simulation {
   live::Answer drag(const Vec3& to) override;
   live::Answer drop() override;
   live::Answer save() override;
+  std::string algorithm() const override;
 
  private:
   Scene read(const std::vector<SceneEdit>& edits) const;
@@ -335,6 +336,13 @@ live::Answer LiveWorld::save() {
   put(std::make_unique<Pipeline>(chapter_, std::move(scene), std::move(world)), "settings");
   hand_.drop();
   return {.text = text, .rebuilt = true, .ms = ms(watch.ns())};
+}
+
+std::string LiveWorld::algorithm() const {
+  if (!chapter_.algorithm) return live::Simulation::algorithm();
+  World copy = now_->world;
+  hand_.pull(copy, now_->scene.step->dt, size_);
+  return chapter_.algorithm(now_->scene, copy, frame_, t_);
 }
 
 }  // namespace

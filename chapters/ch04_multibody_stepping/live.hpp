@@ -48,6 +48,10 @@ struct LiveChapter {
   std::function<LiveStep(const Scene&, World&, const LiveBefore&)> prepare = {};
   // The effects that are on, as for --explain.
   std::function<std::vector<Effect>(const Scene&, const World&)> explain = {};
+  // The account of one frame, step by step, as JSON (common/live/STREAM.md): of a world that is a copy of the live one at the
+  // frame's start, after the hand has pulled, and may be stepped. frame: how many frames came before; t0: s, its start. May
+  // throw InputError. Empty: there is none.
+  std::function<std::string(const Scene&, World& copy, std::int64_t frame, double t0)> algorithm = {};
 };
 
 // Chapter 4 itself.

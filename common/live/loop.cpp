@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/errors.hpp"
+#include "common/text.hpp"
 
 namespace fc::live {
 namespace {
@@ -115,6 +116,24 @@ std::shared_ptr<const std::string> Loop::glb() {
         return glb_;
       },
       nullptr);
+}
+
+Loop::Reply Loop::algorithm() {
+  return wait_for<Reply>([this] { return explain(); }, {Reply::Kind::ended, "the scene has been stopped"});
+}
+
+// Worked out on a copy: what fails there has not failed in the scene.
+Loop::Reply Loop::explain() {
+  if (course_.running) {
+    run_or_pause(false);
+    publish(true);
+  }
+  if (course_.failed) return {Reply::Kind::refused, "the scene has failed: reset it first"};
+  try {
+    return {Reply::Kind::done, simulation_.algorithm()};
+  } catch (const std::exception& error) {
+    return {Reply::Kind::refused, one_line(error.what())};
+  }
 }
 
 Loop::Reply Loop::carry_out(const Command& command) {

@@ -56,6 +56,8 @@ class Loop {
   Reply ask(const Command& command);
   // The same for the scene as binary glTF, in its poses of now; nullptr if the loop no longer runs.
   std::shared_ptr<const std::string> glb();
+  // What the next frame will do, step by step, as JSON; pauses the scene. Refused: a line says why.
+  Reply algorithm();
 
   const Board& board() const { return board_; }
 
@@ -67,6 +69,7 @@ class Loop {
   template <class Result>
   Result wait_for(std::function<Result()> work, Result if_ended);
   Reply carry_out(const Command& command);
+  Reply explain();
   Answer act(const Command& command);
   Answer run_or_pause(bool running);
   Answer step_once();

@@ -138,6 +138,11 @@ void Server::Http::set_routes() {
   server_.Get("/state", [this](const httplib::Request&, httplib::Response& response) {
     answer_shared(response, loop_.board().wait(0, 0, 5s).state.message, message_header, json_type);
   });
+  server_.Get("/algorithm", [this](const httplib::Request&, httplib::Response& response) {
+    const Loop::Reply reply = loop_.algorithm();
+    if (reply.kind == Loop::Reply::Kind::done) return answer(response, 200, reply.json, json_type);
+    answer(response, 503, reply.json + "\n", text_type);
+  });
   server_.Get("/stream",
               [this](const httplib::Request&, httplib::Response& response) { open_stream(response); });
   server_.Post("/command", [this](const httplib::Request&, httplib::Response& response,
@@ -172,7 +177,7 @@ Handled Server::Http::admit(const httplib::Request& request, httplib::Response& 
   if (const auto why = access_.refuses(said_by(request))) return refuse(403, *why);
   const bool is_command = request.path == "/command";
   if (!is_command && request.path != "/" && request.path != "/state" && request.path != "/stream" &&
-      request.path != "/scene.glb")
+      request.path != "/scene.glb" && request.path != "/algorithm")
     return refuse(404, "there is no such path");
   if (request.method != (is_command ? "POST" : "GET")) return refuse(405, "another method is wanted here");
   if (request.has_header("Range"))

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/errors.hpp"
 #include "common/types.hpp"
 
 namespace fc::live {
@@ -95,6 +96,9 @@ class Simulation {
   // The scene as it stands, as YAML that runs. The simulation goes on from what the text says, digit by digit: a run of the
   // text has the same poses.
   virtual Answer save() = 0;
+  // What the next frame will do, step by step, as JSON (STREAM.md, "Algorithm"): worked out on a copy, nothing moves. Throws
+  // InputError if the chapter has no such account; may throw NumericalFailure, as the frame would.
+  virtual std::string algorithm() const { throw InputError("this scene has no account of its algorithm"); }
 };
 
 }  // namespace fc::live
