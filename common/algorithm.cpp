@@ -190,6 +190,10 @@ std::string json(const Document& document) {
                      fmt::join(texts, ","));
 }
 
+std::string count(std::int64_t n, const std::string& noun) {
+  return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s");
+}
+
 std::string number(double x) {
   if (x == 0) return "0";
   return fmt::format("{:.4g}", x);

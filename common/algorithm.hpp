@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -102,6 +103,8 @@ inline constexpr std::size_t kMostBytes = 400'000;  // of a document
 // its middle, and the part's last step says how many. Throws std::invalid_argument for a number that is not finite.
 std::string json(const Document& document);
 
+// "1 contact", "3 contacts": a number with its noun, and an s where it is not one.
+std::string count(std::int64_t n, const std::string& noun);
 // At most four digits, as texts of steps have them: "0.214", "1.2e-07".
 std::string number(double x);
 

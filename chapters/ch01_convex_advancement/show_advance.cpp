@@ -55,19 +55,20 @@ struct Picture {
   }
 };
 
-// The true gap over time, and under it what the first `rows` advances have proved.
-algorithm::Chart gap_chart(const ShownPair& pair, const AdvanceResult& result, std::size_t rows,
-                           double frame_start) {
+// The true gap over time, and under it what the advances from `first` up to `rows` have proved.
+algorithm::Chart gap_chart(const ShownPair& pair, const AdvanceResult& result, std::size_t first,
+                           std::size_t rows, double frame_start) {
   const double start = frame_start + pair.from;
   algorithm::Chart chart{"time [s]", "gap [m]", false, {}, {}};
   algorithm::Curve truth{"gap", Role::past, {}}, proved{"proved", Role::good, {}},
       now{"this advance", Role::now, {}};
   for (int k = 0; k <= kSamples; ++k) {
-    const double t = result.toc * k / kSamples;
+    const double begin = result.certificate[first].t;
+    const double t = begin + (result.toc - begin) * k / kSamples;
     const GjkResult g = distance(pair.a, pair.b, PairPose(pair.motion_a, pair.motion_b, t), {});
     truth.points.push_back({start + t, g.upper});
   }
-  for (std::size_t k = 0; k < rows; ++k) {
+  for (std::size_t k = first; k < rows; ++k) {
     const CertificateRow& row = result.certificate[k];
     algorithm::Curve& curve = k + 1 == rows ? now : proved;
     if (k + 1 == rows && !proved.points.empty()) proved.points.push_back({start + row.t, row.gap_lower});
@@ -95,7 +96,7 @@ Step advance_step(const ShownPair& pair, const AdvanceResult& result, std::size_
   picture.add_poses(step);
   picture.add_witnesses(step);
   picture.add_slab(step, row.normal);
-  step.chart = gap_chart(pair, result, k + 1, frame_start);
+  step.chart = gap_chart(pair, result, k > 0 ? k - 1 : 0, k + 1, frame_start);  // ever nearer to the end
   return step;
 }
 
@@ -104,14 +105,14 @@ std::string ending(const ShownPair& pair, const AdvanceResult& result, double fr
   switch (result.status) {
     case Status::contact:
       return fmt::format(
-          "At {:.6g} s the two nearest points are {} m apart, less than the {} m at which a pair "
-          "counts as in contact. Before that nothing has touched: {} advances prove it.",
-          at, algorithm::number(result.gap_upper), algorithm::number(result.tolerance), result.iterations);
+          "At {:.6g} s the two nearest points are {} m apart, less than the {} m at which a pair counts as in "
+          "contact. Until then nothing has touched: proved by {}.",
+          at, algorithm::number(result.gap_upper), algorithm::number(result.tolerance),
+          algorithm::count(result.iterations, "advance"));
     case Status::separated:
       return fmt::format(
-          "The frame ends at {:.6g} s with a gap of {} m. {} advances prove that the two bodies did "
-          "not meet.",
-          at, algorithm::number(result.gap_upper), result.iterations);
+          "The frame ends at {:.6g} s with a gap of {} m. The two bodies did not meet: proved by {}.", at,
+          algorithm::number(result.gap_upper), algorithm::count(result.iterations, "advance"));
     case Status::touching_at_start:
     case Status::penetrating_at_start:
       return fmt::format(
@@ -164,7 +165,7 @@ std::vector<Step> show_advance(const ShownPair& pair, const AdvanceResult& resul
   const Picture end{pair, result.toc};
   end.add_poses(last);
   end.add_witnesses(last);
-  if (rows > 0) last.chart = gap_chart(pair, result, rows, frame_start);
+  if (rows > 0) last.chart = gap_chart(pair, result, 0, rows, frame_start);
   steps.push_back(last);
   return steps;
 }

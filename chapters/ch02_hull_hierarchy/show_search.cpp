@@ -212,8 +212,8 @@ std::vector<Step> show_search(const ShownModels& shown, const CertifiedSearch& s
   Step first;
   const double all = static_cast<double>(shown.a.boxes.leaves()) * shown.b.boxes.leaves();
   first.text = fmt::format(
-      "Bodies {} and {} have {} and {}: {} pairs. The search looks at {} pairs of boxes and {} of leaves, the one "
-      "that could meet first first.",
+      "Bodies {} and {} have {} and {}: {} pairs. The search looks at {} pairs of boxes and {} of leaves, "
+      "each time at the pair that could meet first.",
       shown.number_a, shown.number_b, count_of(shown.a.boxes.leaves()), count_of(shown.b.boxes.leaves()),
       algorithm::number(all), found.node_pairs, found.leaf_pairs);
   first.poses = {ca::pose_at(shown.number_a, shown.motion_a, 0),

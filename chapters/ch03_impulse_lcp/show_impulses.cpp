@@ -37,8 +37,9 @@ int closing(const VecX& w, double slack) {
   return static_cast<int>((w.array() < -slack).count());
 }
 
-std::string count_text(int n, const char* one, const char* many) {
-  return fmt::format("{} {}", n, n == 1 ? one : many);
+std::string closing_text(int n) {
+  if (n == 0) return "No contact closes in any more.";
+  return n == 1 ? "One contact still closes in." : fmt::format("{} contacts still close in.", n);
 }
 
 algorithm::Bars bars_of(const ShownContacts& shown, const Pivot& pivot, double slack) {
@@ -73,9 +74,10 @@ std::string pivot_text(const ShownContacts& shown, const std::vector<Pivot>& piv
     else if (!had && has)
       text += fmt::format("Now {} closes in, too, and gets an impulse of its own. ", name);
   }
-  const int left = closing(now.w, slack);
-  return text + (left > 0 ? count_text(left, "contact still closes in.", "contacts still close in.")
-                          : std::string("No contact closes in any more."));
+  if (before.z == now.z)
+    text +=
+        "Another contact would close in as soon as the impulse grows. Its row is exchanged first; nothing changes yet. ";
+  return text + closing_text(closing(now.w, slack));
 }
 
 std::vector<Vec3> along_normals(const ShownContacts& shown, const VecX& z) {
@@ -97,10 +99,9 @@ Step velocity_step(const ShownContacts& shown, std::span<const RigidBody> before
                    std::span<const RigidBody> after, const ImpactResult& result) {
   Step step;
   step.text = fmt::format(
-      "The velocities before (pale) and after. {} of {}; the kinetic energy of these bodies "
-      "changes by {} J.",
-      count_text(static_cast<int>(result.impulses.size()), "impulse", "impulses"),
-      count_text(result.solves, "solve", "solves"), algorithm::number(result.energy_change));
+      "The velocities before (pale) and after {}. The kinetic energy of these bodies changes by {} J.",
+      algorithm::count(static_cast<int>(result.impulses.size()), "impulse"),
+      algorithm::number(result.energy_change));
   const double fastest = fastest_of(before, after);
   add_velocities(shown, before, fastest, Role::past, step);
   add_velocities(shown, after, fastest, Role::now, step);
@@ -118,11 +119,10 @@ Step contacts_step(const ShownContacts& shown) {
   int closes = 0;
   for (const Contact& contact : shown.contacts) closes += contact_velocity(shown.bodies, contact) < 0 ? 1 : 0;
   step.text = fmt::format(
-      "{} of this instant are solved together: {} between bodies that hang together by "
-      "what touches. {} close in. The arrows are the normals, from the first body to the "
-      "second.",
-      count_text(static_cast<int>(shown.contacts.size()), "contact", "contacts"),
-      shown.contacts.size() == 1 ? "it is" : "all are", closes);
+      "Everything that touches at this instant, and is connected through bodies that can move, is one problem: {}, of "
+      "which {} in. The arrows are the normals, from the first body to the second.",
+      algorithm::count(static_cast<int>(shown.contacts.size()), "contact"),
+      closes == 1 ? "1 closes" : fmt::format("{} close", closes));
   add_contacts(shown, step);
   add_velocities(shown, shown.bodies, fastest_of(shown.bodies, shown.bodies), Role::past, step);
   algorithm::Bars bars{"velocity along the normal; negative: closes in", "m/s", {}};
@@ -229,13 +229,15 @@ std::vector<Step> show_impact(const ShownContacts& shown, const ImpactOptions& o
   std::vector<Step> pivots = show_pivots(shown, problem.A, problem.b);
   if (pivots.empty())
     pivots.push_back({fmt::format("{} rows are too many to show pivot by pivot; the method used {}.",
-                                  shown.contacts.size(), count_text(result.pivots, "pivot", "pivots"))});
+                                  shown.contacts.size(), algorithm::count(result.pivots, "pivot"))});
   else if (solver != "dantzig")
     pivots.back().text +=
         fmt::format(" The scene's solver is {}, which reaches the same velocities in its own way.", solver);
   if (result.solves > 1)
-    pivots.back().text += fmt::format(" Bodies that parted now meet others: {} follow in the same instant.",
-                                      count_text(result.solves - 1, "more solve", "more solves"));
+    pivots.back().text +=
+        fmt::format(" Bodies that parted now meet others: {} in the same instant.",
+                    result.solves == 2 ? "another solve follows"
+                                       : fmt::format("{} more solves follow", result.solves - 1));
   steps.insert(steps.end(), pivots.begin(), pivots.end());
 
   Step impulses;
@@ -244,10 +246,11 @@ std::vector<Step> show_impact(const ShownContacts& shown, const ImpactOptions& o
     total[place(p.contact)] += p.impulse * shown.contacts[place(p.contact)].normal;
   double largest = 0;
   for (const Vec3& impulse : total) largest = std::max(largest, impulse.norm());
-  impulses.text = fmt::format(
-      "The impulses of the step itself: the largest is {} N s. Where contacts are more than the "
-      "velocities need, other impulses have the same effect.",
-      algorithm::number(largest));
+  impulses.text =
+      fmt::format("The impulses of the step itself: the largest is {} N s.", algorithm::number(largest));
+  if (total.size() > 1)
+    impulses.text +=
+        " Where there are more contacts than the velocities need, other impulses have the same effect.";
   add_impulses(shown, total, Role::force, impulses);
   steps.push_back(impulses);
   steps.push_back(velocity_step(shown, shown.bodies, after, result));

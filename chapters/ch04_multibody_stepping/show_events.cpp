@@ -164,7 +164,9 @@ std::string event_text(const SeenEvent& event, std::size_t number, double t0) {
       break;
   }
   if (!event.instant.contacts.empty())
-    text += fmt::format("{} contacts are solved together. ", event.instant.contacts.size());
+    text += event.instant.contacts.size() == 1
+                ? "Their one contact is solved. "
+                : fmt::format("{} contacts are solved together. ", event.instant.contacts.size());
   text += event.changed.empty()
               ? "No body gets a new motion."
               : fmt::format("Only {} {} new motions from here on; all other clocks stay.",
@@ -271,10 +273,10 @@ algorithm::Part show_events(const World& world, const FrameWatch& watch, double 
   }
   const int left = watch.contacts + watch.others - static_cast<int>(count);
   Step last;
-  last.text = fmt::format(
-      "The frame ends at {:.6g} s: only now do all clocks show the same time again. It had {} events{}.",
-      t0 + dt, watch.contacts + watch.others,
-      left > 0 ? fmt::format(", of which {} are not shown", left) : "");
+  last.text =
+      fmt::format("The frame ends at {:.6g} s: only now do all clocks show the same time again. It had {}{}.",
+                  t0 + dt, algorithm::count(watch.contacts + watch.others, "event"),
+                  left > 0 ? fmt::format(", of which {} are not shown", left) : "");
   for (std::size_t i = 0; i < world.bodies.size() && last.poses.size() < kPoses; ++i)
     if (!world.bodies[i].state.is_static())
       last.poses.push_back(

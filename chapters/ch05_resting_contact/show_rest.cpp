@@ -44,9 +44,10 @@ Step envelope_step(const world::World& world, const std::vector<PatchOfPair>& pa
                    double dt) {
   Step step;
   step.text = fmt::format(
-      "The envelope is {} m wide: bodies nearer than that are in contact, and rest {} m apart. {} pairs of "
-      "bodies are in contact now. Only an approach faster than {} m/s (envelope / frame) bounces.",
-      algorithm::number(margin), algorithm::number(0.5 * margin), patches.size(),
+      "The envelope is {} m wide: bodies nearer than that are in contact, and rest {} m apart. {} of bodies {} in contact "
+      "now. Only an approach faster than {} m/s (envelope / frame) bounces.",
+      algorithm::number(margin), algorithm::number(0.5 * margin),
+      algorithm::count(static_cast<int>(patches.size()), "pair"), patches.size() == 1 ? "is" : "are",
       algorithm::number(margin / dt));
   std::vector<int> drawn;
   for (const PatchOfPair& patch : patches)
@@ -62,9 +63,10 @@ Step envelope_step(const world::World& world, const std::vector<PatchOfPair>& pa
 
 Step patch_step(const PatchOfPair& patch, double margin, double arrow) {
   Step step;
-  step.text = fmt::format(
-      "Bodies {} and {} face each other at {} points; the certified gap is {} m, of {} m at rest.", patch.a,
-      patch.b, patch.points.size(), algorithm::number(patch.gap), algorithm::number(0.5 * margin));
+  step.text =
+      fmt::format("Bodies {} and {} face each other at {}; the certified gap is {} m, of {} m at rest.",
+                  patch.a, patch.b, algorithm::count(static_cast<int>(patch.points.size()), "point"),
+                  algorithm::number(patch.gap), algorithm::number(0.5 * margin));
   algorithm::Bars bars{"gap at each point of the patch", "m", {}};
   std::vector<Vec3> outline;
   for (std::size_t i = 0; i < patch.points.size(); ++i) {
@@ -82,6 +84,15 @@ Step patch_step(const PatchOfPair& patch, double margin, double arrow) {
   return step;
 }
 
+std::string bodies_text(const std::vector<int>& numbers) {
+  constexpr std::size_t kNamed = 8;
+  std::vector<int> first(numbers.begin(),
+                         numbers.begin() + static_cast<std::ptrdiff_t>(std::min(kNamed, numbers.size())));
+  std::sort(first.begin(), first.end());
+  return fmt::format("bodies {}{}", fmt::join(first, ", "),
+                     numbers.size() > kNamed ? fmt::format(" and {} more", numbers.size() - kNamed) : "");
+}
+
 // One answer of the law.
 void add_push(const world::World& world, const SeenPush& push, bool by_pivots, double t0,
               std::vector<Step>& steps) {
@@ -95,12 +106,14 @@ void add_push(const world::World& world, const SeenPush& push, bool by_pivots, d
   double largest = 0, tightest = std::numeric_limits<double>::infinity();
   for (const Vec3& impulse : push.impulses) largest = std::max(largest, impulse.norm());
   for (const double limit : push.limits) tightest = std::min(tightest, limit);
-  step.text = fmt::format(
-      "{}, at {:.6g} s. {} contacts of an island of {} bodies, the largest impulse is {} N s.", what,
-      t0 + push.time, push.contacts.size(), push.numbers.size(), algorithm::number(largest));
+  step.text = fmt::format("{}, at {:.6g} s. The island has {} and {}; the largest impulse is {} N s.", what,
+                          t0 + push.time, bodies_text(push.numbers),
+                          algorithm::count(static_cast<int>(push.contacts.size()), "contact"),
+                          algorithm::number(largest));
   if (!push.is_instant())
     step.text += fmt::format(" The tightest contact may close in at {} m/s.", algorithm::number(tightest));
   if (!push.result.solved) step.text += " This was not solved: something else is tried.";
+  step.poses = push.poses();
   lcp::add_contacts(shown, step);
   lcp::add_impulses(shown, push.impulses, push.result.solved ? Role::force : Role::bad, step);
   algorithm::Bars bars{"impulse of each contact", "N s", {}};
@@ -114,7 +127,10 @@ void add_push(const world::World& world, const SeenPush& push, bool by_pivots, d
   if (!by_pivots || push.contacts.size() > kMostPivotRows) return;
   const lcp::ImpactProblem problem = lcp::assemble(push.before, push.contacts);
   const VecX b = problem.v_before + Eigen::Map<const VecX>(push.limits.data(), problem.v_before.size());
-  for (Step& pivot : lcp::show_pivots(shown, problem.A, b)) steps.push_back(std::move(pivot));
+  for (Step& pivot : lcp::show_pivots(shown, problem.A, b)) {
+    pivot.poses = push.poses();
+    steps.push_back(std::move(pivot));
+  }
 }
 
 algorithm::Part show_islands(const world::World& world, const RestWatch& watch, bool normals_only,
@@ -148,10 +164,10 @@ Step frame_step(const world::World& world, const RestWatch& watch) {
     for (const int body : {record.contact.body_a, record.contact.body_b}) bodies.push_back(body);
   }
   step.text = fmt::format(
-      "The whole frame: {} impulses of contacts that last, {} of impacts; the largest is {} N s. {} plans were "
-      "made, and the paths of {} pairs were to be proved.",
-      watch.records.size() - static_cast<std::size_t>(impacts), impacts, algorithm::number(largest),
-      watch.report.plans, watch.report.checked);
+      "The whole frame: {} of contacts that last, {} of impacts; the largest is {} N s. There were {}, with {} to be proved.",
+      algorithm::count(static_cast<int>(watch.records.size()) - impacts, "impulse"), impacts,
+      algorithm::number(largest), algorithm::count(watch.report.plans, "plan"),
+      algorithm::count(watch.report.checked, "path"));
   if (watch.report.sweeps > 0)
     step.text += fmt::format(" There is a pile, solved by {} sweeps to a residual of {}.",
                              watch.report.sweeps, algorithm::number(watch.report.step.lcp_residual));

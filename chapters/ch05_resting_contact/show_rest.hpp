@@ -21,6 +21,7 @@ struct SeenPush {
   // Nothing may close in, and no gap counts: an instant's impact law. Else a plan.
   bool is_instant() const;
   lcp::ShownContacts shown(const world::World& world) const;
+  std::vector<algorithm::BodyPose> poses() const;  // of its bodies that can be moved
 };
 
 // What is noted while a frame is stepped.

@@ -12,6 +12,13 @@ lcp::ShownContacts SeenPush::shown(const world::World& world) const {
   return {before, numbers, contacts, world::arrow_length(world, numbers)};
 }
 
+std::vector<algorithm::BodyPose> SeenPush::poses() const {
+  std::vector<algorithm::BodyPose> poses;
+  for (std::size_t i = 0; i < before.size(); ++i)
+    if (!before[i].is_static()) poses.push_back({numbers[i], before[i].position, before[i].orientation});
+  return poses;
+}
+
 SeenPush WatchedLaw::begin(const ContactSet& set, std::span<const double> limits) const {
   SeenPush seen;
   seen.time = watch_.now;

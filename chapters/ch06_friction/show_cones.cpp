@@ -55,6 +55,7 @@ Step cone_step(const world::World& world, const SeenPush& push, double t0) {
   for (const Vec3& impulse : push.impulses) largest = std::max(largest, impulse.norm());
   const double scale = largest > 0 ? shown.arrow / largest : 0;
   Step step;
+  step.poses = push.poses();
   algorithm::Bars bars{"how much of its friction each contact uses: |r_T| / (µ r_N)", "", {}};
   int count[3] = {};
   for (std::size_t i = 0; i < push.contacts.size(); ++i) {
@@ -77,9 +78,10 @@ Step cone_step(const world::World& world, const SeenPush& push, double t0) {
          grip == Grip::slips ? fmt::format("slips, {} m/s", algorithm::number(slip.norm())) : look.name});
   }
   step.text = fmt::format(
-      "{}, at {:.6g} s: {} contacts stick, {} slip, {} are open. Each impulse lies in its cone, whose width is µ; "
-      "inside it the contact sticks, on its surface it slips against the impulse.",
-      push.is_instant() ? "An instant" : "A plan's pushes", t0 + push.time, count[1], count[2], count[0]);
+      "{}, at {:.6g} s. Of {}, {} stick, {} slip and {} push nothing. Each impulse lies in its cone, as wide as µ: inside "
+      "it the contact sticks, on its surface it slips against the impulse.",
+      push.is_instant() ? "An instant" : "A plan's pushes", t0 + push.time,
+      algorithm::count(static_cast<int>(push.contacts.size()), "contact"), count[1], count[2], count[0]);
   if (push.contacts.size() > kMostCones)
     step.text += fmt::format(" {} cones are not drawn.", push.contacts.size() - kMostCones);
   step.bars = bars;

@@ -54,7 +54,9 @@ TEST(ShownPivots, EndAtTheSolversAnswer) {
     for (std::size_t k = 0; k < pivots.size(); ++k) {
       EXPECT_GE(pivots[k].z.minCoeff(), 0);
       EXPECT_LT((problem.A * pivots[k].z + problem.b - pivots[k].w).cwiseAbs().maxCoeff(), 1e-9 * size);
-      if (k > 0) EXPECT_NE(pivots[k].z, pivots[k - 1].z) << "a pivot that changes nothing";
+      if (k > 0) {
+        EXPECT_NE(pivots[k].z, pivots[k - 1].z) << "a pivot that changes nothing";
+      }
     }
     pivots_seen += static_cast<int>(pivots.size());
     const ShownContacts shown{h.bodies, h.numbers, h.contacts, 1};

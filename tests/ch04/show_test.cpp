@@ -54,14 +54,18 @@ TEST(ShownFrame, HasTheEventsOfTheStepAndChangesNothing) {
                      ASSERT_GE(event.time, last) << "events in order";
                      last = event.time;
                      ASSERT_LE(event.time, scene.step->dt);
-                     if (event.kind == SeenEvent::Kind::contact) ASSERT_FALSE(event.instant.contacts.empty());
+                     if (event.kind == SeenEvent::Kind::contact) {
+                       ASSERT_FALSE(event.instant.contacts.empty());
+                     }
                      points += static_cast<int>(event.instant.contacts.size());
                      for (const int body : event.changed)
                        EXPECT_EQ(event.clocks[static_cast<std::size_t>(body)], event.time);
                    }
                    const bool all_kept =
                        watch.contacts + watch.others == static_cast<int>(watch.events.size());
-                   if (all_kept && report.solves == instants) EXPECT_EQ(points, report.contacts) << name;
+                   if (all_kept && report.solves == instants) {
+                     EXPECT_EQ(points, report.contacts) << name;
+                   }
                    events += instants;
                    contacts += points;
                  });

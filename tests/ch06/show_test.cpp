@@ -57,7 +57,9 @@ TEST(ShownCones, ImpulsesLieInsideTheConesThatAreDrawn) {
           if (!step.bars) continue;
           for (const algorithm::Bar& bar : step.bars->rows) {
             EXPECT_LE(bar.value, 1 + 1e-6) << name;
-            if (bar.role == Role::good) EXPECT_LT(bar.value, 1) << name;
+            if (bar.role == Role::good) {
+              EXPECT_LT(bar.value, 1) << name;
+            }
           }
         }
     }

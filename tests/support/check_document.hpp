@@ -16,7 +16,9 @@ using Json = nlohmann::json;
 
 inline void check_finite(const Json& json, const std::string& where) {
   if (json.is_null()) ADD_FAILURE() << where << ": null, a number that is not finite";
-  if (json.is_number()) EXPECT_TRUE(std::isfinite(json.get<double>())) << where;
+  if (json.is_number()) {
+    EXPECT_TRUE(std::isfinite(json.get<double>())) << where;
+  }
   if (json.is_structured())
     for (const auto& [key, value] : json.items()) check_finite(value, where + "/" + key);
 }
@@ -78,7 +80,9 @@ inline void check_chart(const Json& chart, const std::string& where) {
     EXPECT_FALSE(curve.at("points").empty()) << where;
     for (const Json& p : curve.at("points")) {
       ASSERT_EQ(p.size(), 2u) << where;
-      if (chart.at("log").get<bool>()) EXPECT_GT(p[1].get<double>(), 0) << where;
+      if (chart.at("log").get<bool>()) {
+        EXPECT_GT(p[1].get<double>(), 0) << where;
+      }
     }
   }
   for (const Json& mark : chart.at("marks")) {
