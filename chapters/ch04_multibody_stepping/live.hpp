@@ -17,12 +17,21 @@ namespace fc::world {
 
 using NamedNumbers = std::vector<std::pair<std::string, double>>;
 
+// What people are told.
+struct LiveWarning {
+  double time = 0;   // s, in the frame
+  std::string text;  // a line
+};
+
 // What a frame did, for the page.
 struct LiveFrame {
   StepReport report;
   NamedNumbers
       account;  // J, by which the total energy changed: the chapter's own entries, besides the report's
   NamedNumbers stages;  // ms; the rest of the frame has no name
+  NamedNumbers effects =
+      {};  // ms that an effect cost; no time is told twice, and one that cannot be told apart has none
+  std::vector<LiveWarning> warnings = {};
 };
 
 // A chapter's step, made ready for one world, which it may refer to.
@@ -48,6 +57,8 @@ struct LiveChapter {
   std::function<LiveStep(const Scene&, World&, const LiveBefore&)> prepare = {};
   // The effects that are on, as for --explain.
   std::function<std::vector<Effect>(const Scene&, const World&)> explain = {};
+  // Why an effect that is on cannot be switched off by its key: a few words; empty: it can. May be empty itself.
+  std::function<std::string(const Scene&, const std::string& effect)> keeps = {};
   // The account of one frame, step by step, as JSON (common/live/STREAM.md): of a world that is a copy of the live one at the
   // frame's start, after the hand has pulled, and may be stepped. frame: how many frames came before; t0: s, its start. May
   // throw InputError. Empty: there is none.

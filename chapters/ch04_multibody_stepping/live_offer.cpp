@@ -112,7 +112,10 @@ std::vector<live::EffectState> effects_offered(const LiveChapter& chapter, const
     state.adds = effect.stages;
     if (const Switch* s = switch_of(effect.name)) {
       state.key = std::string(s->key) + "=" + value_for_on(*s, scene);
-      state.can_switch = scene.mark(s->key).has_value() && !is_asked_for_elsewhere(s->key, scene);
+      std::string kept = chapter.keeps ? chapter.keeps(scene, effect.name) : "";
+      if (is_asked_for_elsewhere(s->key, scene)) kept = "shapes or pairs ask for it, too";
+      state.can_switch = scene.mark(s->key).has_value() && kept.empty();
+      if (!kept.empty()) state.why += "; it stays on: " + kept;
     }
     list.push_back(state);
   }

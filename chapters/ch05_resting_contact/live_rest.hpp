@@ -6,9 +6,10 @@
 
 namespace fc::resting {
 
-// The scene has an envelope. law: for this world; null: this chapter's. Throws as Resting().
+// The scene has an envelope. law: for this world; null: this chapter's. law_effect: the effect that put it there, and whose cost
+// is the solver's. Throws as Resting().
 world::LiveStep live_step(const Scene& scene, world::World& world, const world::LiveBefore& before,
-                          std::unique_ptr<ContactLaw> law = {});
+                          std::unique_ptr<ContactLaw> law = {}, const std::string& law_effect = {});
 
 // A scene without an envelope is live as in chapter 4.
 world::LiveChapter live_chapter();

@@ -49,13 +49,15 @@ std::vector<Effect> explain(const Scene& scene, const world::World& world) {
   return list;
 }
 
-void report_clash(const Scene& scene, const Clash& clash, double frame_start) {
+std::string clash_text(const Scene& scene, const Clash& clash) {
   const auto where = [&](int body) { return scene.bodies[static_cast<std::size_t>(body)].where.text(); };
-  fmt::print(
-      stderr,
-      "{}: this kinematic body runs into the one of {}, which cannot give way either, at {:.6g} s; nothing "
-      "stops it\n",
-      where(clash.kinematic), where(clash.other), frame_start + clash.time);
+  return fmt::format(
+      "{}: this kinematic body runs into the one of {}, which cannot give way either; nothing stops it",
+      where(clash.kinematic), where(clash.other));
+}
+
+void report_clash(const Scene& scene, const Clash& clash, double frame_start) {
+  fmt::print(stderr, "{} (at {:.6g} s)\n", clash_text(scene, clash), frame_start + clash.time);
 }
 
 int run_scene(const Scene& scene, const RunContext& context, Summary& summary, const RunOptions& options) {

@@ -19,7 +19,8 @@ struct RunOptions {
 // The effects for --explain: chapter 4's, and those of the envelope.
 std::vector<Effect> explain(const Scene& scene);
 std::vector<Effect> explain(const Scene& scene, const world::World& world);
-// Prints the remark that nothing stops this kinematic body; frame_start: s.
+// The remark that nothing stops this kinematic body; printed with its time. frame_start: s.
+std::string clash_text(const Scene& scene, const Clash& clash);
 void report_clash(const Scene& scene, const Clash& clash, double frame_start);
 // As world::run_scene(). The scene has an envelope.
 int run_scene(const Scene& scene, const RunContext& context, Summary& summary,

@@ -260,7 +260,7 @@ bool Resting::resolve(Instant& instant, Island& island) {
   std::vector<Member> before;
   if (ends) before = island.members;
   const InstantResult result = [&] {
-    const TimeInto time(report_.times.solver_ns);
+    const TimeInto time(report_.times.solver_ns), of_instants(report_.times.instants_ns);
     return resolve_instant(instant.world, island, envelope(), *law_, options);
   }();
   if (!result.solved && options_.solver.chosen)

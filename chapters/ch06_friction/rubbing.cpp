@@ -59,11 +59,14 @@ world::LiveChapter live_chapter() {
     if (!scene.envelope) return world::live_step(scene);
     if (!asks_for_friction(scene)) return resting::live_step(scene, world, before);
     refuse_idle_keys(scene);
-    return resting::live_step(scene, world, before, std::make_unique<CoulombLaw>(world));
+    return resting::live_step(scene, world, before, std::make_unique<CoulombLaw>(world), "friction");
   };
   chapter.explain = [](const Scene& scene, const world::World& world) { return explain(scene, world); };
   chapter.algorithm = [](const Scene& scene, world::World& copy, std::int64_t frame, double t0) {
     return algorithm::json(show_frame(scene, copy, frame, t0));
+  };
+  chapter.keeps = [](const Scene& scene, const std::string& effect) -> std::string {
+    return effect == "envelope" && asks_for_friction(scene) ? "friction needs contacts that last" : "";
   };
   return chapter;
 }

@@ -4,13 +4,16 @@
 
 namespace fc::live {
 
-void Board::post(std::string frame, std::optional<std::string> state) {
+void Board::post(std::string frame, std::optional<std::string> twin, std::optional<std::string> state) {
   auto shared_frame = std::make_shared<const std::string>(std::move(frame));
+  auto shared_twin = twin ? std::make_shared<const std::string>(*std::move(twin)) : nullptr;
   auto shared_state = state ? std::make_shared<const std::string>(*std::move(state)) : nullptr;
   {
     const std::lock_guard lock(mutex_);
     news_.frame.message.swap(shared_frame);
     ++news_.frame.number;
+    news_.twin.message.swap(shared_twin);
+    ++news_.twin.number;
     if (shared_state) {
       news_.state.message.swap(shared_state);
       ++news_.state.number;

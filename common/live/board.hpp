@@ -13,12 +13,12 @@ namespace fc::live {
 
 // A message that nobody changes any more: encoded once, shared by all pages. Of one kind, the number counts up.
 struct Notice {
-  std::shared_ptr<const std::string> message;  // nullptr: there was none yet
+  std::shared_ptr<const std::string> message;  // nullptr: there is none
   std::uint64_t number = 0;
 };
 
 struct News {
-  Notice frame, state;
+  Notice frame, twin, state;
   bool closed = false;  // nothing will follow
 };
 
@@ -26,7 +26,8 @@ struct News {
 // newest message and misses those between.
 class Board {
  public:
-  void post(std::string frame, std::optional<std::string> state);
+  // Of a scene without a copy, twin is empty, and pages that come later get none.
+  void post(std::string frame, std::optional<std::string> twin, std::optional<std::string> state);
   void close();
 
   News news() const;

@@ -39,6 +39,13 @@ class Fields {
 
   double number(const char* field) const { return finite(at(field), field, "a finite number"); }
 
+  bool yes(const char* field) const {
+    const Json& value = at(field);
+    if (!value.is_boolean()) throw InputError(fmt::format("'{}' must be true or false", field));
+    return value.get<bool>();
+  }
+  bool has(const char* field) const { return object_.contains(field); }
+
   int whole(const char* field) const {
     const Json& value = at(field);
     const bool fits =
@@ -81,8 +88,16 @@ Command bare(const Fields& fields) {
 }
 
 Command parse_set(const Fields& fields) {
-  fields.only({"key", "value"});
-  return command::Set{fields.text("key"), fields.text("value")};
+  fields.only({"key", "value", "of"});
+  const bool of_twin = fields.has("of");
+  if (of_twin && fields.text("of") != "twin")
+    throw InputError("'of' must be \"twin\"; without it the key is of the scene");
+  return command::Set{fields.text("key"), fields.text("value"), of_twin};
+}
+
+Command parse_twin(const Fields& fields) {
+  fields.only({"on"});
+  return command::Twin{fields.yes("on")};
 }
 
 Command parse_throw(const Fields& fields) {
@@ -113,7 +128,7 @@ struct Kind {
   Command (*parse)(const Fields&);
 };
 
-constexpr std::array<Kind, 12> kinds = {{{"run", bare<command::Run>},
+constexpr std::array<Kind, 13> kinds = {{{"run", bare<command::Run>},
                                          {"pause", bare<command::Pause>},
                                          {"step", bare<command::Step>},
                                          {"reset", bare<command::Reset>},
@@ -121,6 +136,7 @@ constexpr std::array<Kind, 12> kinds = {{{"run", bare<command::Run>},
                                          {"drop", bare<command::Drop>},
                                          {"save", bare<command::Save>},
                                          {"set", parse_set},
+                                         {"twin", parse_twin},
                                          {"throw", parse_throw},
                                          {"grab", parse_grab},
                                          {"drag", parse_drag},

@@ -19,6 +19,10 @@ struct Drop {};
 struct Save {};
 struct Set {
   std::string key, value;
+  bool of_twin = false;  // else of the scene
+};
+struct Twin {
+  bool on = false;
 };
 struct Throw {
   Vec3 from, velocity;  // m, m/s
@@ -35,9 +39,9 @@ struct Speed {
 };
 }  // namespace command
 
-using Command =
-    std::variant<command::Run, command::Pause, command::Step, command::Reset, command::Stop, command::Drop,
-                 command::Save, command::Set, command::Throw, command::Grab, command::Drag, command::Speed>;
+using Command = std::variant<command::Run, command::Pause, command::Step, command::Reset, command::Stop,
+                             command::Drop, command::Save, command::Set, command::Twin, command::Throw,
+                             command::Grab, command::Drag, command::Speed>;
 
 // Throws InputError, with one line that says what is wrong, for all that is not exactly one command: fields that are
 // missing, unknown or of another type, and numbers that are not finite.

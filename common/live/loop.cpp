@@ -25,6 +25,7 @@ bool needs_a_whole_scene(const Command& command) {
   return std::visit(
       Overloaded{[](const command::Pause&) { return false; }, [](const command::Reset&) { return false; },
                  [](const command::Stop&) { return false; }, [](const command::Set&) { return false; },
+                 [](const command::Twin& twin) { return twin.on; },
                  [](const command::Speed&) { return false; }, [](const auto&) { return true; }},
       command);
 }
@@ -161,20 +162,21 @@ Answer Loop::act(const Command& command) {
           [this](const command::Run&) { return run_or_pause(true); },
           [this](const command::Pause&) { return run_or_pause(false); },
           [this](const command::Step&) { return step_once(); },
-          [this](const command::Reset&) { return began_again(simulation_.reset()); },
+          [this](const command::Reset&) { return began_again(copies_.reset()); },
           [this](const command::Stop&) {
             stop();
             return Answer{"the scene has been stopped"};
           },
-          [this](const command::Drop&) { return simulation_.drop(); },
-          [this](const command::Save&) { return simulation_.save(); },
+          [this](const command::Drop&) { return copies_.drop(); },
+          [this](const command::Save&) { return copies_.save(); },
           [this](const command::Set& set) {
-            const Answer answer = simulation_.set(set.key, set.value);
+            const Answer answer = copies_.set(set.key, set.value, set.of_twin);
             return answer.restarted ? began_again(answer) : answer;
           },
-          [this](const command::Throw& ball) { return simulation_.throw_ball(ball.from, ball.velocity); },
-          [this](const command::Grab& grab) { return simulation_.grab(grab.body, grab.point); },
-          [this](const command::Drag& drag) { return simulation_.drag(drag.to); },
+          [this](const command::Twin& twin) { return twin.on ? copies_.begin_twin() : copies_.end_twin(); },
+          [this](const command::Throw& ball) { return copies_.throw_ball(ball.from, ball.velocity); },
+          [this](const command::Grab& grab) { return copies_.grab(grab.body, grab.point); },
+          [this](const command::Drag& drag) { return copies_.drag(drag.to); },
           [this](const command::Speed& speed) {
             course_.speed = speed.value;
             return Answer{fmt::format("{:.6g} simulated seconds per second, at most", speed.value)};
@@ -188,9 +190,14 @@ Answer Loop::run_or_pause(bool running) {
   return {running ? "it runs" : "it is paused"};
 }
 
+bool Loop::is_stopped() {
+  const std::lock_guard lock(mutex_);
+  return stop_;
+}
+
 Answer Loop::step_once() {
   run_or_pause(false);
-  simulation_.step();
+  copies_.step([this] { return is_stopped(); });
   return {"one frame"};
 }
 
@@ -202,7 +209,7 @@ Answer Loop::began_again(Answer answer) {
 
 void Loop::step() {
   try {
-    simulation_.step();
+    copies_.step([this] { return is_stopped(); });
   } catch (const std::exception& error) {
     fail(error);
   }
@@ -218,13 +225,15 @@ void Loop::fail(const std::exception& error) {
 void Loop::publish(bool with_state) {
   glb_.reset();
   last_ = simulation_.snapshot();
+  const std::optional<TwinState> twin = copies_.twin(last_);
   const auto now = Pace::Clock::now();
-  std::optional<std::string> state;
+  std::optional<std::string> state, of_twin;
+  if (twin) of_twin = twin_message(*twin, course_);
   if (with_state || now - state_at_ >= state_interval) {
-    state = state_message(state_text(simulation_, last_, course_));
+    state = state_message(state_text(simulation_, last_, course_, twin));
     state_at_ = now;
   }
-  board_.post(frame_message(last_, simulation_.geometry(), course_), std::move(state));
+  board_.post(frame_message(last_, simulation_.geometry(), course_), std::move(of_twin), std::move(state));
 }
 
 }  // namespace fc::live

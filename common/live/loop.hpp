@@ -12,6 +12,7 @@
 
 #include "common/live/board.hpp"
 #include "common/live/command.hpp"
+#include "common/live/copies.hpp"
 #include "common/live/messages.hpp"
 #include "common/live/simulation.hpp"
 
@@ -39,7 +40,7 @@ class Pace {
 
 class Loop {
  public:
-  explicit Loop(Simulation& simulation) : simulation_(simulation) {}
+  explicit Loop(Simulation& simulation) : simulation_(simulation), copies_(simulation) {}
 
   // Steps the simulation in the calling thread, until stop() or the command stop. The scene begins running. A step or a
   // command that fails pauses it, and the pages say why. What the simulation's other functions throw is a defect: it comes
@@ -73,6 +74,7 @@ class Loop {
   Answer act(const Command& command);
   Answer run_or_pause(bool running);
   Answer step_once();
+  bool is_stopped();
   Answer began_again(Answer answer);
   void step();
   void fail(const std::exception& error);
@@ -81,6 +83,7 @@ class Loop {
 
   // The loop's thread alone uses these.
   Simulation& simulation_;
+  Copies copies_;
   Course course_;
   Snapshot last_;
   Pace pace_;

@@ -77,15 +77,13 @@ Json knob_json(const Knob& knob) {
           {"choices", knob.choices}, {"restarts", knob.restarts}};
 }
 
-}  // namespace
-
-std::string frame_message(const Snapshot& snapshot, int geometry, const Course& course) {
-  Writer writer(MessageKind::frame);
+// All of a frame's message but its header.
+void put_frame(Writer& writer, const Snapshot& snapshot, int geometry, bool running, bool failed) {
   writer.reserve(128 + 28 * snapshot.poses.size() + 40 * snapshot.contacts.size());
   writer.put(static_cast<std::uint32_t>(geometry));
   writer.put(static_cast<std::uint32_t>(snapshot.frame));
   writer.put(snapshot.t);
-  writer.put(std::uint32_t{course.running} | std::uint32_t{course.failed.has_value()} << 1);
+  writer.put(std::uint32_t{running} | std::uint32_t{failed} << 1);
   writer.put(static_cast<std::uint32_t>(snapshot.poses.size()));
   writer.put(static_cast<std::uint32_t>(snapshot.contacts.size()));
   writer.put(static_cast<std::int32_t>(snapshot.grabbed));
@@ -104,6 +102,58 @@ std::string frame_message(const Snapshot& snapshot, int geometry, const Course& 
     writer.put_floats(snapshot.grab_point);
     writer.put_floats(snapshot.grab_target);
   }
+}
+
+Json line_or_null(const std::optional<std::string>& text) {
+  return text ? Json(one_line(*text)) : Json(nullptr);
+}
+
+void add_numbers(Json& json, const Snapshot& snapshot) {
+  json["step_ms"] = number(snapshot.step_ms);
+  json["stages"] = numbers(snapshot.stages);
+  json["contacts"] = snapshot.contacts.size();
+  json["energy"] = number(snapshot.energy);
+  json["kinetic"] = number(snapshot.kinetic);
+  json["potential"] = number(snapshot.potential);
+  json["account"] = numbers(snapshot.account);
+  json["min_gap"] = number(snapshot.min_gap);
+  json["lost_time"] = number(snapshot.lost_time);
+  json["residual"] = number(snapshot.residual);
+  json["warnings"] = Json::array();
+  for (const std::string& line : snapshot.warnings) json["warnings"].push_back(one_line(line));
+}
+
+void add_offers(Json& json, const Simulation& simulation) {
+  json["effects"] = Json::object();
+  for (const EffectState& effect : simulation.effects()) json["effects"][effect.name] = effect_json(effect);
+  json["knobs"] = Json::array();
+  for (const Knob& knob : simulation.knobs()) json["knobs"].push_back(knob_json(knob));
+}
+
+Json twin_json(const TwinState& twin) {
+  Json json = {{"t", number(twin.now.t)},
+               {"frame", twin.now.frame},
+               {"failed", line_or_null(twin.failed)},
+               {"dt", number(twin.now.dt)}};
+  add_numbers(json, twin.now);
+  add_offers(json, *twin.simulation);
+  json["distance"] = number(twin.distance.metres);
+  return json;
+}
+
+}  // namespace
+
+std::string frame_message(const Snapshot& snapshot, int geometry, const Course& course) {
+  Writer writer(MessageKind::frame);
+  put_frame(writer, snapshot, geometry, course.running, course.failed.has_value());
+  return writer.message();
+}
+
+std::string twin_message(const TwinState& twin, const Course& course) {
+  Writer writer(MessageKind::twin);
+  writer.put(twin.distance.metres);
+  writer.put(static_cast<std::int32_t>(twin.distance.farthest));
+  put_frame(writer, twin.now, twin.simulation->geometry(), course.running, twin.failed.has_value());
   return writer.message();
 }
 
@@ -113,30 +163,16 @@ std::string state_message(std::string_view state) {
   return writer.message();
 }
 
-std::string state_text(const Simulation& simulation, const Snapshot& snapshot, const Course& course) {
-  Json json = {{"t", number(snapshot.t)},
-               {"frame", snapshot.frame},
-               {"running", course.running},
-               {"failed", course.failed ? Json(one_line(*course.failed)) : Json(nullptr)},
-               {"title", simulation.title()},
-               {"dt", number(snapshot.dt)},
-               {"bodies", snapshot.poses.size()},
-               {"geometry", simulation.geometry()},
-               {"step_ms", number(snapshot.step_ms)},
-               {"stages", numbers(snapshot.stages)},
-               {"contacts", snapshot.contacts.size()},
-               {"energy", number(snapshot.energy)},
-               {"kinetic", number(snapshot.kinetic)},
-               {"potential", number(snapshot.potential)},
-               {"account", numbers(snapshot.account)},
-               {"min_gap", number(snapshot.min_gap)},
-               {"lost_time", number(snapshot.lost_time)},
-               {"residual", number(snapshot.residual)},
-               {"speed", number(course.speed)},
-               {"effects", Json::object()},
-               {"knobs", Json::array()}};
-  for (const EffectState& effect : simulation.effects()) json["effects"][effect.name] = effect_json(effect);
-  for (const Knob& knob : simulation.knobs()) json["knobs"].push_back(knob_json(knob));
+std::string state_text(const Simulation& simulation, const Snapshot& snapshot, const Course& course,
+                       const std::optional<TwinState>& twin) {
+  Json json = {{"t", number(snapshot.t)},         {"frame", snapshot.frame},
+               {"running", course.running},       {"failed", line_or_null(course.failed)},
+               {"title", simulation.title()},     {"dt", number(snapshot.dt)},
+               {"bodies", snapshot.poses.size()}, {"geometry", simulation.geometry()}};
+  add_numbers(json, snapshot);
+  json["speed"] = number(course.speed);
+  add_offers(json, simulation);
+  json["twin"] = twin ? twin_json(*twin) : Json(nullptr);
   return dumped(json);
 }
 

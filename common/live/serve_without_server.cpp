@@ -1,4 +1,4 @@
-// Compiled instead of all other files of this folder where there is no cpp-httplib.
+// Compiled instead of the server where there is no cpp-httplib.
 #include "common/errors.hpp"
 #include "common/live/serve.hpp"
 

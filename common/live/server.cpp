@@ -222,9 +222,12 @@ void Server::Http::open_stream(httplib::Response& response) {
           return false;  // it waits until there is room; then what is newest?
         const News newest = loop_.board().news();
         const auto send = [&](const Notice& notice, const Notice& last) {
-          return notice.number == last.number || sink.write(notice.message->data(), notice.message->size());
+          return notice.number == last.number || !notice.message ||
+                 sink.write(notice.message->data(), notice.message->size());
         };
-        if (!send(newest.state, seen->state) || !send(newest.frame, seen->frame)) return false;
+        if (!send(newest.state, seen->state) || !send(newest.frame, seen->frame) ||
+            !send(newest.twin, seen->twin))
+          return false;
         *seen = newest;
         if (newest.closed) sink.done();
         return true;

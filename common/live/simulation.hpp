@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -60,7 +61,8 @@ struct Snapshot {
   double min_gap = 0;    // m, the smallest certified gap of the last frame; infinite if there is none
   double lost_time = 0;  // s, in the last frame
   double residual = 0;   // of the solver, in the last frame
-  int grabbed = -1;      // body, or -1
+  std::vector<std::string> warnings;                           // the last few lines, the newest last
+  int grabbed = -1;                                            // body, or -1
   Vec3 grab_point = Vec3::Zero(), grab_target = Vec3::Zero();  // m, world
 };
 
@@ -68,6 +70,7 @@ struct Snapshot {
 struct Answer {
   std::string text;        // one line for people; of save, the scene file
   bool restarted = false;  // the scene began again
+  bool reshaped = false;   // with other shapes, or other bodies
   bool rebuilt = false;    // the pipeline was built anew, from the present state
   double ms = 0;           // how long that took
 };
@@ -90,12 +93,17 @@ class Simulation {
   // A scene key, as --set; "none" removes it.
   virtual Answer set(const std::string& key, const std::string& value) = 0;
   virtual Answer throw_ball(const Vec3& from, const Vec3& velocity) = 0;  // m, m/s
-  virtual Answer grab(int body, const Vec3& point) = 0;                   // m, world: a point of the body
-  virtual Answer drag(const Vec3& to) = 0;  // m, world: where the grabbed point is pulled to
+  // Throws what throw_ball() would, and changes nothing.
+  virtual void check_throw(const Vec3& from, const Vec3& velocity) const = 0;
+  virtual Answer grab(int body, const Vec3& point) = 0;  // m, world: a point of the body
+  virtual Answer drag(const Vec3& to) = 0;               // m, world: where the grabbed point is pulled to
   virtual Answer drop() = 0;
   // The scene as it stands, as YAML that runs. The simulation goes on from what the text says, digit by digit: a run of the
   // text has the same poses.
   virtual Answer save() = 0;
+  // A second simulation in the same state, with nothing held. Both forget what a step remembers, as save() does: so they go on
+  // alike, to the last digit, as long as the same is done to both.
+  virtual std::unique_ptr<Simulation> copy() = 0;
   // What the next frame will do, step by step, as JSON (STREAM.md, "Algorithm"): worked out on a copy, nothing moves. Throws
   // InputError if the chapter has no such account; may throw NumericalFailure, as the frame would.
   virtual std::string algorithm() const { throw InputError("this scene has no account of its algorithm"); }

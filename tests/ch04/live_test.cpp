@@ -323,4 +323,70 @@ TEST(Live, AFrameThatFailsIsTakenBack) {
   for (int frame = 0; frame < 50; ++frame) scene->step();
 }
 
+TEST(LiveTwin, ACopyIsAlikeToTheLastDigit) {
+  expect_copy_alike(open(), Vec3(0.1, 0, 0.2));
+  expect_copy_alike(
+      open(corner_scene("restitution: 0.8\ngyroscopic: true\ndrag: {linear: 0.1}\nsleep: {after: 0.1}\n", 2)),
+      Vec3(0.1, 0, 0.2));
+}
+
+TEST(LiveTwin, AnotherSettingParts) {
+  const double by_tolerance = farthest_with(open(), "ccd.tolerance", "1e-4", 200);
+  EXPECT_GT(by_tolerance, 1e-6);
+  EXPECT_LT(by_tolerance, 10);
+  EXPECT_GT(farthest_with(open(), "step.dt", "0.005", 200), 0);
+}
+
+// A ball in free fall is where Galilei says, whatever the frame.
+TEST(LiveTwin, FreeFallDoesNotDependOnTheFrame) {
+  const LiveScene scene = open(
+      "step: {dt: 0.016666666666666666, duration: 1}\ngravity: [0, 0, -9.81]\nshapes:\n  ball: {sphere: {radius: 0.1}, "
+      "mass: 2}\nbodies:\n  - {shape: ball, velocity: [3, 0, 5]}\n");
+  EXPECT_LT(farthest_with(scene, "step.dt", "0.004166666666666667", 600), 1e-10);  // at 490 m
+}
+
+TEST(LiveTwin, ACopyThatFailsStandsStillAndTheSceneGoesOn) {
+  const LiveScene of = open();
+  TwoScenes two(of);
+  two.copies.begin_twin();
+  two.copies.set("solver", "{method: pgs, limit: 1}", true);
+  for (int frame = 0; frame < 200; ++frame) two.step();
+  ASSERT_TRUE(two.twin().failed.has_value());
+  EXPECT_EQ(two.scene.snapshot().frame, 200);
+  EXPECT_LT(two.twin().now.frame, 200);
+  EXPECT_TRUE(std::isnan(two.twin().distance.metres));
+  two.copies.set("solver", "none", true);  // that alone does not bring it back
+  two.step();
+  EXPECT_TRUE(two.twin().failed.has_value());
+  two.copies.begin_twin();
+  two.step();
+  expect_alike(two);
+}
+
+// The first bodies differ by a rounding: a key that begins the copy again begins the scene, too.
+TEST(LiveTwin, AnotherStartOfTheCopy) {
+  const LiveScene of = open();
+  TwoScenes two(of);
+  two.copies.begin_twin();
+  for (int frame = 0; frame < 10; ++frame) two.step();
+  EXPECT_TRUE(two.copies.set("bodies.2.position", "[-2, 1e-9, 0.31]", true).restarted);
+  EXPECT_EQ(two.scene.snapshot().frame, 0);
+  EXPECT_NEAR(two.twin().distance.metres, 1e-9, 1e-16);
+  EXPECT_EQ(two.twin().distance.farthest, 2);
+  two.copies.set("shapes.ball.sphere.radius", "0.2", true);  // of both
+  EXPECT_EQ(two.scene.glb().size(), two.twin().simulation->glb().size());
+  EXPECT_NE(refusal([&] { two.copies.set("bodies.2.position", "[3.5, 0, 1]", true); }), "");  // in the wall
+  expect_alike(two);
+}
+
+TEST(LiveTwin, AThousandBodiesHaveACopyAtOnce) {
+  const LiveScene of = open(
+      "step: {dt: 0.01, duration: 1}\nrestitution: 1\nshapes:\n  ball: {sphere: {radius: 0.3}, mass: 1}\nbodies:\n"
+      "  - {shape: ball, grid: {count: [10, 10, 10], spacing: [1, 1, 1]}, velocity: [1, 2, 3]}\n");
+  TwoScenes two(of);
+  EXPECT_LT(two.copies.begin_twin().ms, 1000);
+  for (int frame = 0; frame < 10; ++frame) two.step();
+  expect_alike(two);
+}
+
 }  // namespace

@@ -129,4 +129,61 @@ TEST(LiveRest, ContactsThatLastAreMarked) {
   EXPECT_NEAR(sum.z(), mass * 9.81 * 0.01, 1e-6 * mass);  // N s: they carry the weight
 }
 
+TEST(LiveTwin, ACopyIsAlikeToTheLastDigit) {
+  expect_copy_alike(open(), fc::Vec3::Zero());
+}
+
+TEST(LiveTwin, AnotherSettingParts) {
+  EXPECT_GT(farthest_with(open(), "ccd.tolerance", "1e-9", 200), 0);
+  EXPECT_GT(farthest_with(open(), "envelope", "2e-3", 200), 1e-5);
+  EXPECT_GT(farthest_with(open(), "step.dt", "0.005", 200), 0);
+}
+
+TEST(LiveTwin, AThousandBoxesHaveACopy) {
+  const LiveScene of = open(
+      "step: {dt: 0.01, duration: 1}\ngravity: [0, 0, -9.81]\nenvelope: 1e-3\nshapes:\n  floor: {box: {size: [50, 50, 1]}}\n"
+      "  box: {box: {size: [0.5, 0.5, 0.5]}, density: 100}\nbodies:\n  - {shape: floor, static: true, position: [0, 0, -0.5]}\n"
+      "  - {shape: box, grid: {count: [10, 10, 10], spacing: [1, 1, 0.5005]}, position: [-4.5, -4.5, 0.2505]}\n");
+  TwoScenes two(of);
+  two.copies.begin_twin();
+  for (int frame = 0; frame < 10; ++frame) two.step();
+  expect_alike(two);
+}
+
+// Nothing can stop a kinematic body that runs into a static one: the page says so, with the time since the scene's start.
+TEST(LiveRest, ClashesAreAWarning) {
+  const LiveScene scene = open(
+      "step: {dt: 0.01, duration: 1}\nenvelope: 1e-3\nshapes:\n  box: {box: {size: [1, 1, 1]}, mass: 1}\nbodies:\n"
+      "  - {shape: box, static: true}\n  - {shape: box, kinematic: true, position: [2, 0, 0], velocity: [-2, 0, 0]}\n");
+  for (int frame = 0; frame < 20; ++frame) scene->step();
+  EXPECT_TRUE(scene->snapshot().warnings.empty());
+  scene->set("restitution", "0.5");  // another pipeline
+  for (int frame = 0; frame < 80; ++frame) scene->step();
+  const auto warnings = scene->snapshot().warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].substr(0, 5), "at 0.");
+  EXPECT_NEAR(std::stod(warnings[0].substr(3)), 0.5, 0.011);
+  EXPECT_NE(warnings[0].find("nothing stops it"), std::string::npos);
+  scene->reset();
+  EXPECT_TRUE(scene->snapshot().warnings.empty());
+}
+
+// The effects' costs are parts of the frame, and none is told twice.
+TEST(LiveRest, EffectsCostNoMoreThanTheFrame) {
+  const LiveScene scene = open();
+  double plans = 0, impacts = 0;
+  for (int frame = 0; frame < 50; ++frame) {
+    scene->step();
+    double sum = 0;
+    for (const fc::live::EffectState& effect : scene->effects()) {
+      sum += effect.ms;
+      if (effect.name == "plans") plans += effect.ms;
+      if (effect.name == "impact law") impacts += effect.ms;
+    }
+    EXPECT_LE(sum, scene->snapshot().step_ms * 1.001);
+  }
+  EXPECT_GT(plans, 0);
+  EXPECT_GT(impacts, 0);
+}
+
 }  // namespace

@@ -63,4 +63,30 @@ TEST(LiveFriction, FrictionIsASwitchAndAKnob) {
   scene->step();
 }
 
+TEST(LiveTwin, ACopyIsAlikeToTheLastDigit) {
+  expect_copy_alike(open(), fc::Vec3::Zero());
+}
+
+TEST(LiveTwin, AnotherSettingParts) {
+  EXPECT_GT(farthest_with(open(), "ccd.tolerance", "1e-9", 200), 0);
+  EXPECT_GT(farthest_with(open(), "friction", "0.2", 200), 1e-5);
+  EXPECT_GT(farthest_with(open(), "step.dt", "0.005", 200), 0);
+}
+
+// Friction needs contacts that last, so their envelope is no switch while there is friction.
+TEST(LiveFriction, TheEnvelopeStaysOnWithFriction) {
+  const LiveScene scene = open(corner_scene("friction: 0.4\nenvelope: 1e-3\n", 1));
+  const auto envelope = [&] {
+    const auto effects = scene->effects();
+    const auto found =
+        std::find_if(effects.begin(), effects.end(), [](const auto& e) { return e.name == "envelope"; });
+    EXPECT_NE(found, effects.end());
+    return *found;
+  };
+  EXPECT_FALSE(envelope().can_switch);
+  EXPECT_NE(envelope().why.find("friction needs contacts that last"), std::string::npos);
+  scene->set("friction", "none");
+  EXPECT_TRUE(envelope().can_switch);
+}
+
 }  // namespace

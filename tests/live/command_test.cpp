@@ -38,6 +38,12 @@ TEST(Command, EachIsRead) {
       std::get<command::Set>(parse_command(R"({"do": "set", "key": "ccd.tolerance", "value": "1e-4"})"));
   EXPECT_EQ(set.key, "ccd.tolerance");
   EXPECT_EQ(set.value, "1e-4");
+  EXPECT_FALSE(set.of_twin);
+  EXPECT_TRUE(
+      std::get<command::Set>(parse_command(R"({"do": "set", "key": "friction", "value": "1", "of": "twin"})"))
+          .of_twin);
+  EXPECT_TRUE(std::get<command::Twin>(parse_command(R"({"do": "twin", "on": true})")).on);
+  EXPECT_FALSE(std::get<command::Twin>(parse_command(R"({"do": "twin", "on": false})")).on);
   const auto ball = std::get<command::Throw>(
       parse_command(R"({"do": "throw", "from": [1, 2.5, -3], "velocity": [0, 0, 9]})"));
   EXPECT_EQ(ball.from, Vec3(1, 2.5, -3));
@@ -65,6 +71,10 @@ TEST(Command, WhatIsNoneIsRefusedInALine) {
       {R"({"do": "drag", "to": [1, 2, 3], "key": ""})", "'drag' has no field 'key'"},
       {R"({"do": "set", "key": "a"})", "the command has no field 'value'"},
       {R"({"do": "set", "key": "a", "value": 3})", "'value' must be a text"},
+      {R"({"do": "set", "key": "a", "value": "3", "of": "scene"})",
+       R"('of' must be "twin"; without it the key is of the scene)"},
+      {R"({"do": "twin"})", "the command has no field 'on'"},
+      {R"({"do": "twin", "on": 1})", "'on' must be true or false"},
       {R"({"do": "drag", "to": [1, 2]})", "'to' must be three finite numbers, [x, y, z]"},
       {R"({"do": "drag", "to": [1, 2, "3"]})", "'to' must be three finite numbers, [x, y, z]"},
       {R"({"do": "drag", "to": {"x": 1, "y": 2, "z": 3}})", "'to' must be three finite numbers, [x, y, z]"},

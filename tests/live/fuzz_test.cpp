@@ -30,7 +30,8 @@ class Fuzzer {
       case 6:
         return wrong_length(command());
       default:
-        return live_.request("GET", live_.target("/scene.glb"), header() + header() + header());
+        return live_.request("GET", live_.target(below(2) == 0 ? "/scene.glb" : "/algorithm"),
+                             header() + header() + header());
     }
   }
 
@@ -77,6 +78,9 @@ class Fuzzer {
                                     R"({"do": "grab", "body": 1, "point": [1, 2, 3]})",
                                     R"({"do": "throw", "from": [0, 0, 0], "velocity": [1e308, -1e308, 0]})",
                                     R"({"do": "drag", "to": [1e400, 0, 0]})",
+                                    R"({"do": "twin", "on": true})",
+                                    R"({"do": "set", "key": "drift", "value": "1", "of": "twin"})",
+                                    R"({"do": "twin", "on": false})",
                                     std::string(below(70000), '['),
                                     R"({"do": ["run", {"run": [1, [2]]}]})",
                                     R"({"do": "pause", "do": "reset"})"};
@@ -138,7 +142,7 @@ TEST(Fuzz, FiveThousandMalformedRequests) {
   std::map<int, int> statuses;
   for (auto& counts : counted)
     for (const auto& [status, count] : counts.get()) statuses[status] += count;
-  for (const int expected : {200, 400, 403, 404, 405, 413, 415, 416})
+  for (const int expected : {200, 400, 403, 404, 405, 413, 415, 416, 503})
     EXPECT_GT(statuses[expected], 0) << expected;
   EXPECT_EQ(statuses[500], 0);
   EXPECT_FALSE(live.scene.two_threads);

@@ -90,7 +90,7 @@ TEST(Messages, TheStateHasEveryNumberAndNoneThatJsonLacks) {
 }
 
 TEST(Messages, AnswersSayHowItWent) {
-  const auto set = nlohmann::json::parse(answer_text({"rebuilt", false, true, 1.5}, false));
+  const auto set = nlohmann::json::parse(answer_text({.text = "rebuilt", .rebuilt = true, .ms = 1.5}, false));
   EXPECT_EQ(set["ok"], true);
   EXPECT_EQ(set["text"], "rebuilt");
   EXPECT_EQ(set["restarted"], false);

@@ -72,7 +72,7 @@ TEST(Server, RefusesWhoeverLacksTheKey) {
   const Served live;
   std::string wrong = live.server.key();
   wrong.back() = wrong.back() == '0' ? '1' : '0';
-  for (const char* path : {"/", "/state", "/stream", "/scene.glb", "/command", "/nowhere"})
+  for (const char* path : {"/", "/state", "/stream", "/scene.glb", "/algorithm", "/command", "/nowhere"})
     for (const std::string& query :
          {std::string(), std::string("?key="), "?key=" + wrong, "?key=" + live.server.key() + "0",
           "?Key=" + live.server.key(), "?key=" + wrong + "&key=" + live.server.key()})

@@ -8,6 +8,7 @@
 
 #include "ch04_multibody_stepping/live.hpp"
 #include "ch04_multibody_stepping/run.hpp"
+#include "common/live/copies.hpp"
 #include "support/run_files.hpp"
 
 namespace fc_test {
@@ -246,6 +247,74 @@ inline void expect_outside_of_wall(const LiveScene& scene, int body) {
     farthest = std::max(farthest, now.poses[static_cast<std::size_t>(body)].position.x());
   }
   EXPECT_GT(farthest, 2.5) << "it never came to the wall";
+}
+
+// A scene beside its copy.
+struct TwoScenes {
+  explicit TwoScenes(const LiveScene& of) : scene(*of.live), copies(scene) {}
+
+  void step() {
+    copies.step([] { return false; });
+  }
+  fc::live::TwinState twin() const { return copies.twin(scene.snapshot()).value(); }
+
+  fc::live::Simulation& scene;
+  fc::live::Copies copies;
+};
+
+inline void expect_alike(const TwoScenes& two) {
+  const fc::live::TwinState twin = two.twin();
+  ASSERT_EQ(bits(twin.now), bits(two.scene.snapshot())) << "frame " << twin.now.frame;
+  ASSERT_EQ(twin.distance.metres, 0);
+  ASSERT_FALSE(twin.failed.has_value());
+}
+
+// The same is done to both: hand, ball, save and reset. They are alike to the last digit in more than 200 frames.
+inline void expect_copy_alike(const LiveScene& of, const fc::Vec3& arm) {
+  for (int frame = 0; frame < 30; ++frame) of->step();
+  TwoScenes two(of);
+  EXPECT_TRUE(two.copies.begin_twin().rebuilt);
+  const auto run = [&](int frames) {
+    for (int frame = 0; frame < frames; ++frame) {
+      two.step();
+      ASSERT_NO_FATAL_FAILURE(expect_alike(two));
+    }
+  };
+  run(60);
+  two.copies.grab(4, of->snapshot().poses[4].position + arm);
+  two.copies.drag({0, 0, 2});
+  run(40);
+  two.copies.throw_ball({-3, 0, 3}, {5, 0, 0});
+  run(60);
+  EXPECT_EQ(two.twin().now.grabbed, 4);
+  EXPECT_GT(entry(two.twin().now, "hand"), 0);
+  two.copies.save();  // lets go
+  EXPECT_EQ(two.twin().now.grabbed, -1);
+  run(50);
+  two.copies.reset();
+  EXPECT_EQ(two.twin().now.frame, 0);
+  run(20);
+}
+
+// The largest distance in `frames` frames, after one key of the copy was set. Both accounts stay closed, and their times meet.
+inline double farthest_with(const LiveScene& of, const std::string& key, const std::string& value,
+                            int frames) {
+  TwoScenes two(of);
+  two.copies.begin_twin();
+  two.copies.set(key, value, true);
+  Bookkeeper of_scene(two.scene.snapshot()), of_twin(two.twin().now);
+  double farthest = 0;
+  for (int frame = 0; frame < frames; ++frame) {
+    two.step();
+    const fc::live::TwinState twin = two.twin();
+    EXPECT_FALSE(twin.failed.has_value()) << *twin.failed;
+    EXPECT_TRUE(std::isfinite(twin.distance.metres)) << "frame " << frame;
+    EXPECT_NEAR(twin.now.t, two.scene.snapshot().t, 1e-11);
+    of_scene.look(two.scene.snapshot());
+    of_twin.look(twin.now);
+    farthest = std::max(farthest, twin.distance.metres);
+  }
+  return farthest;
 }
 
 }  // namespace fc_test
