@@ -138,6 +138,10 @@ Options parse_options(int argc, char** argv, int chapter, const std::string& pur
     refuse_beside_live(app);
     options.live = port_of(once("--live", live, "there is one page"));
   }
+  if (!algorithm.empty() && chapter >= 5 && (options.clear || options.mine))
+    throw InputError(
+        "--algorithm has no effect beside --clear and --mine from chapter 5 on: it shows the fast methods; "
+        "leave one of them out");
   if (!algorithm.empty())
     options.algorithm = frames_of(once("--algorithm", algorithm, "name all frames in one list, as 12,40"));
   options.sweep = once("--sweep", sweep, "a run sweeps one key: sweep one, and --set the other");

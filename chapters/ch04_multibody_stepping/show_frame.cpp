@@ -95,7 +95,7 @@ ShownSearches::ShownSearches(const World& world, double dt) {
     if (!world.may_meet(a, b) || is_sensor_pair(world, a, b) || body_a.path || body_b.path) return;
     const ca::PairPose pose(world.motion(a, 0), world.motion(b, 0), 0);
     const double gap =
-        hulls::model_distance(world.model_of(a), world.model_of(b), pose, world.tolerance).lower;
+        hulls::model_distance(world.model_of(a), world.model_of(b), pose, world.tolerance, nearest).lower;
     if (gap >= nearest || gap <= world.keep()) return;
     nearest = gap;
     nearest_ = {a, b, 0, dt, world.motion(a, 0), world.motion(b, 0)};

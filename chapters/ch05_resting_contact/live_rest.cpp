@@ -58,7 +58,7 @@ world::LiveChapter live_chapter() {
     return scene.envelope ? explain(scene, world) : world::explain(scene);
   };
   chapter.algorithm = [](const Scene& scene, world::World& copy, std::int64_t frame, double t0) {
-    return algorithm::json(show_frame(scene, copy, frame, t0));
+    return algorithm::json(resting::show_frame(scene, copy, frame, t0));
   };
   return chapter;
 }

@@ -63,7 +63,7 @@ world::LiveChapter live_chapter() {
   };
   chapter.explain = [](const Scene& scene, const world::World& world) { return explain(scene, world); };
   chapter.algorithm = [](const Scene& scene, world::World& copy, std::int64_t frame, double t0) {
-    return algorithm::json(show_frame(scene, copy, frame, t0));
+    return algorithm::json(friction::show_frame(scene, copy, frame, t0));
   };
   chapter.keeps = [](const Scene& scene, const std::string& effect) -> std::string {
     return effect == "envelope" && asks_for_friction(scene) ? "friction needs contacts that last" : "";
