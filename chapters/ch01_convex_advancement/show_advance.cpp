@@ -84,14 +84,18 @@ Step advance_step(const ShownPair& pair, const AdvanceResult& result, std::size_
   const CertificateRow& row = result.certificate[k];
   const double at = frame_start + pair.from + row.t;
   Step step;
-  const bool closes = row.speed_bound > 0;
-  step.text = fmt::format("Advance {}, at {:.5g} s. The slab between the two bodies is {} m wide. ", k + 1,
+  // The row's own speed is that of its straight line, which is steeper where the frame ends first.
+  const MovingPair bodies(MotionBound::projected, pair.a, pair.motion_a, pair.b, pair.motion_b);
+  const double speed =
+      std::min(row.speed_bound, bodies.closing_speed_bound(row.normal, row.t, row.t + row.advance));
+  const bool to_the_end = row.t + row.advance >= pair.to - pair.from;
+  step.text = fmt::format("Advance {}, at {:.7g} s. The slab between the two bodies is {} m wide. ", k + 1,
                           at, algorithm::number(row.gap_lower));
-  step.text += closes ? fmt::format(
-                            "They close in at no more than {} m/s along its normal, so they cannot meet "
-                            "before {:.5g} s.",
-                            algorithm::number(row.speed_bound), at + row.advance)
-                      : "Along its normal they do not close in, so they cannot meet in this frame.";
+  step.text +=
+      speed > 0 ? fmt::format("They close in at no more than {} m/s along its normal, so they cannot meet ",
+                              algorithm::number(speed))
+                : std::string("Along its normal they do not close in, so they cannot meet ");
+  step.text += to_the_end ? "in this frame." : fmt::format("before {:.7g} s.", at + row.advance);
   const Picture picture{pair, row.t};
   picture.add_poses(step);
   picture.add_witnesses(step);
@@ -105,7 +109,7 @@ std::string ending(const ShownPair& pair, const AdvanceResult& result, double fr
   switch (result.status) {
     case Status::contact:
       return fmt::format(
-          "At {:.6g} s the two nearest points are {} m apart, less than the {} m at which a pair counts as in "
+          "At {:.7g} s the two nearest points are {} m apart, less than the {} m at which a pair counts as in "
           "contact. Until then nothing has touched: proved by {}.",
           at, algorithm::number(result.gap_upper), algorithm::number(result.tolerance),
           algorithm::count(result.iterations, "advance"));
@@ -148,7 +152,7 @@ std::vector<Step> show_advance(const ShownPair& pair, const AdvanceResult& resul
   const Picture start{pair, 0};
   Step first;
   first.text =
-      fmt::format("Bodies {} and {} at {:.5g} s. Their nearest points are {} m apart.", pair.number_a,
+      fmt::format("Bodies {} and {} at {:.7g} s. Their nearest points are {} m apart.", pair.number_a,
                   pair.number_b, frame_start + pair.from, algorithm::number(start.nearest.upper));
   start.add_poses(first);
   start.add_witnesses(first);
