@@ -254,9 +254,13 @@ algorithm::Part show_events(const World& world, const FrameWatch& watch, double 
   algorithm::Part part{4, "the queue of events, and each body's own clock", {}};
   const std::size_t count = watch.events.size();
   Step first;
-  first.text = count == 0 ? "No event lies in this frame: each body goes straight to its end in one step."
-                          : queue_text(watch.events[0]);
-  if (count > 0 && watch.events[0].waiting > 0) first.bars = queue_bars(watch.events[0], t0);
+  first.text = "No event lies in this frame: each body goes straight to its end in one step.";
+  if (count > 0) {  // pairs are queried after a planner has begun
+    const SeenEvent& earliest =
+        watch.events[count > 1 && watch.events[0].kind == SeenEvent::Kind::begin ? 1 : 0];
+    first.text = queue_text(earliest);
+    if (earliest.waiting > 0) first.bars = queue_bars(earliest, t0);
+  }
   part.steps.push_back(first);
   for (std::size_t k = 0; k < count; ++k) {
     const SeenEvent& event = watch.events[k];

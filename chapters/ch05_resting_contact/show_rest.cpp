@@ -18,7 +18,7 @@ using algorithm::Step;
 
 constexpr std::size_t kMostPatches = 5, kMostEnvelopes = 4, kMostIslands = 3;
 constexpr std::size_t kMostCorners = 64;    // of a shape whose envelope is drawn
-constexpr std::size_t kMostPivotRows = 12;  // of an island that is shown pivot by pivot
+constexpr std::size_t kMostPivotRows = 24;  // of an island that is shown pivot by pivot
 
 // A body with a layer of `width` (m) around it: the hull of its corners, each moved out along a few directions. Empty where that
 // is no body with few corners.
@@ -110,6 +110,8 @@ void add_push(const world::World& world, const SeenPush& push, bool by_pivots, d
                           t0 + push.time, bodies_text(push.numbers),
                           algorithm::count(static_cast<int>(push.contacts.size()), "contact"),
                           algorithm::number(largest));
+  if (by_pivots && push.contacts.size() > kMostPivotRows)
+    step.text += fmt::format(" More than {} contacts are not shown pivot by pivot.", kMostPivotRows);
   if (!push.is_instant())
     step.text += fmt::format(" The tightest contact may close in at {} m/s.", algorithm::number(tightest));
   if (!push.result.solved) step.text += " This was not solved: something else is tried.";
@@ -164,7 +166,7 @@ Step frame_step(const world::World& world, const RestWatch& watch) {
     for (const int body : {record.contact.body_a, record.contact.body_b}) bodies.push_back(body);
   }
   step.text = fmt::format(
-      "The whole frame: {} of contacts that last, {} of impacts; the largest is {} N s. There were {}, with {} to be proved.",
+      "The whole frame: {} of contacts that last, {} of impacts; the largest is {} N s. It took {}, with {} to be proved.",
       algorithm::count(static_cast<int>(watch.records.size()) - impacts, "impulse"), impacts,
       algorithm::number(largest), algorithm::count(watch.report.plans, "plan"),
       algorithm::count(watch.report.checked, "path"));

@@ -10,6 +10,7 @@ namespace fc::resting {
 struct SeenPush {
   double time = 0;        // s in the frame
   bool corrects = false;  // of gaps, by the velocities of paths
+  bool of_plan = false;   // for a plan; else for an instant, after which nothing may close in
   std::vector<int> numbers;
   std::vector<RigidBody> before, after;  // the bodies
   std::vector<lcp::Contact> contacts;    // bodies by their places
@@ -18,8 +19,7 @@ struct SeenPush {
   std::vector<Vec3> impulses;            // N s, on B
   IslandResult result;
 
-  // Nothing may close in, and no gap counts: an instant's impact law. Else a plan.
-  bool is_instant() const;
+  bool is_instant() const { return !corrects && !of_plan; }
   lcp::ShownContacts shown(const world::World& world) const;
   std::vector<algorithm::BodyPose> poses() const;  // of its bodies that can be moved
 };
@@ -27,7 +27,8 @@ struct SeenPush {
 // What is noted while a frame is stepped.
 struct RestWatch {
   static constexpr std::size_t kMost = 200, kMostContacts = 400;
-  double now = 0;  // s in the frame
+  const world::World* world = nullptr;  // that is being stepped
+  double now = 0;                       // s in the frame
   std::vector<SeenPush> pushes;
   std::vector<world::Body> planned;  // the bodies just after the first plans were made
   double plan_end = 0;               // s in the frame, when the first of these ends

@@ -4,9 +4,25 @@
 
 namespace fc::resting {
 
-bool SeenPush::is_instant() const {
-  return !corrects && std::all_of(limits.begin(), limits.end(), [](double limit) { return limit == 0; });
+namespace {
+
+// A law is not told what it is asked for. An instant asks for limits of 0, with the bodies' velocities; a plan with their mean
+// velocities until its end, which gravity has changed for all alike.
+bool is_for_plan(const world::World& world, const SeenPush& push) {
+  if (std::any_of(push.limits.begin(), push.limits.end(), [](double limit) { return limit != 0; }))
+    return true;
+  if (!world.effects.gravity || world.effects.gravity->isZero(0)) return false;
+  constexpr double kAside = 0.05;  // of the change: drag, and what rounding leaves
+  const Vec3 down = world.effects.gravity->normalized();
+  for (std::size_t i = 0; i < push.before.size(); ++i) {
+    if (push.before[i].is_static() || push.before[i].is_guided()) continue;
+    const Vec3 change = push.before[i].velocity - world.bodies[at(push.numbers[i])].state.velocity;
+    if (!(change.dot(down) > 0) || change.cross(down).norm() > kAside * change.norm()) return false;
+  }
+  return true;
 }
+
+}  // namespace
 
 lcp::ShownContacts SeenPush::shown(const world::World& world) const {
   return {before, numbers, contacts, world::arrow_length(world, numbers)};
@@ -27,6 +43,7 @@ SeenPush WatchedLaw::begin(const ContactSet& set, std::span<const double> limits
   seen.contacts.assign(set.contacts.begin(), set.contacts.end());
   seen.limits.assign(limits.begin(), limits.end());
   seen.bends.assign(set.bends.begin(), set.bends.end());
+  seen.of_plan = is_for_plan(*watch_.world, seen);
   return seen;
 }
 
@@ -85,6 +102,7 @@ class WatchedResting final : public Resting {
   std::vector<int> begin(world::World& world, double dt, world::StepReport& report,
                          const world::Listeners& listeners) override {
     part_ = dt;
+    watch_.world = &world;
     const std::vector<int> changed = watched(world, {.time = 0}, world::SeenEvent::Kind::begin,
                                              [&] { return Resting::begin(world, dt, report, listeners); });
     if (watch_.planned.empty()) {

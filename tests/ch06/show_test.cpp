@@ -131,8 +131,8 @@ TEST(ShownGallery, PartsFollowTheEffects) {
     const auto scene = world::make_live({chapters / file, {}, {}, 6}, live_chapter());
     for (int frame = 0; frame < 3; ++frame) scene->step();
     std::set<int> list;
-    for (const Json& part : Json::parse(scene->algorithm()).at("parts"))
-      list.insert(part.at("chapter").get<int>());
+    const Json document = Json::parse(scene->algorithm());
+    for (const Json& part : document.at("parts")) list.insert(part.at("chapter").get<int>());
     return list;
   };
   const std::set<int> balls = chapters_of("ch04_multibody_stepping/scenes/gas.yaml");
