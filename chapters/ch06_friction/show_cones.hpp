@@ -1,6 +1,8 @@
 // Coulomb's cones with the impulses inside, and how the solver comes to them, drawn.
 #pragma once
 
+#include <ostream>
+
 #include "ch05_resting_contact/show_rest.hpp"
 #include "ch06_friction/cone_problem.hpp"
 
@@ -8,6 +10,10 @@ namespace fc::friction {
 
 // What a contact does after the impulses.
 enum class Grip { open, sticks, slips };
+inline std::ostream& operator<<(std::ostream& out, Grip grip) {
+  constexpr const char* kNames[] = {"open", "sticks", "slips"};
+  return out << kNames[static_cast<int>(grip)];
+}
 Grip grip_of(const Vec3& impulse, const Vec3& normal, double mu);
 
 // The cone of a contact as it is drawn: its top at the point, around the normal, `height` (m) high. Its sides touch the true cone
