@@ -134,13 +134,15 @@ Answer Copies::set(const std::string& key, const std::string& value, bool of_twi
     return {fmt::format("the copy has failed: {}", failure.what())};
   }
   if (!twin_) return answer;
-  if (answer.restarted)
+  if (answer.restarted) {
+    answer.text += of_twin ? ", and so does the scene itself" : ", and so does its copy";
     return begun_again(answer, of_twin, [&](Simulation& other) {
       if (answer.reshaped)
         other.set(key, value);
       else
         other.reset();
     });
+  }
   if (key.starts_with("step"))
     answer.text += meeting_text(scene_.snapshot().dt, twin_->simulation->snapshot().dt);
   return answer;

@@ -134,7 +134,6 @@ TEST(LiveTwin, ACopyIsAlikeToTheLastDigit) {
 }
 
 TEST(LiveTwin, AnotherSettingParts) {
-  EXPECT_GT(farthest_with(open(), "ccd.tolerance", "1e-9", 200), 0);
   EXPECT_GT(farthest_with(open(), "envelope", "2e-3", 200), 1e-5);
   EXPECT_GT(farthest_with(open(), "step.dt", "0.005", 200), 0);
 }

@@ -58,7 +58,7 @@ class FakeScene : public live::Simulation {
     now.dt = dt_;
     for (int i = 0; i < bodies_; ++i)
       now.poses.push_back({Vec3(i + i * now.t * drift_, static_cast<double>(frames), now.t),
-                           fc::Quat(0.5, -0.5, 0.25, 0.125)});
+                           fc::Quat(2. / 9, -4. / 9, 5. / 9, 6. / 9)});
     now.contacts.push_back({Vec3(1, 2, 3), Vec3(0, 0, 1), Vec3(4, 5, 6), 0, 1, true});
     now.stages = {{"ccd_ms", 1.5}, {"lcp_ms", 0.5}};
     now.step_ms = 2;

@@ -30,7 +30,8 @@ class Fuzzer {
       case 6:
         return wrong_length(command());
       default:
-        return live_.request("GET", live_.target(below(2) == 0 ? "/scene.glb" : "/algorithm"),
+        return live_.request(below(4) == 0 ? word() : "GET",
+                             live_.target(below(2) == 0 ? "/scene.glb" : "/algorithm"),
                              header() + header() + header());
     }
   }
@@ -81,7 +82,7 @@ class Fuzzer {
                                     R"({"do": "twin", "on": true})",
                                     R"({"do": "set", "key": "drift", "value": "1", "of": "twin"})",
                                     R"({"do": "twin", "on": false})",
-                                    std::string(below(70000), '['),
+                                    std::string(below(140000), '['),
                                     R"({"do": ["run", {"run": [1, [2]]}]})",
                                     R"({"do": "pause", "do": "reset"})"};
     return below(2) == 0 ? spoilt(commands[below(std::size(commands))])

@@ -296,12 +296,14 @@ inline void expect_copy_alike(const LiveScene& of, const fc::Vec3& arm) {
   run(20);
 }
 
-// The largest distance in `frames` frames, after one key of the copy was set. Both accounts stay closed, and their times meet.
+// The largest distance in `frames` frames, after one key of the copy was set and a ball was thrown. Both accounts stay closed, and
+// their times meet.
 inline double farthest_with(const LiveScene& of, const std::string& key, const std::string& value,
                             int frames) {
   TwoScenes two(of);
   two.copies.begin_twin();
   two.copies.set(key, value, true);
+  two.copies.throw_ball({-3, 0, 3}, {5, 0, -4});
   Bookkeeper of_scene(two.scene.snapshot()), of_twin(two.twin().now);
   double farthest = 0;
   for (int frame = 0; frame < frames; ++frame) {
