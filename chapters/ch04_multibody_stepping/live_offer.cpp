@@ -63,6 +63,12 @@ const Switch* switch_of(const std::string& effect) {
   return found == std::end(kSwitches) ? nullptr : found;
 }
 
+// Why the scene's own key does not switch off an effect that is on; empty: it does.
+std::string kept_on(const LiveChapter& chapter, const Switch& effect, const Scene& scene) {
+  if (is_asked_for_elsewhere(effect.key, scene)) return "shapes or pairs ask for it, too";
+  return chapter.keeps ? chapter.keeps(scene, effect.effect) : "";
+}
+
 // A scale for lengths: the smallest reach of a body that can be moved, m.
 double smallest_reach(const World& world) {
   double least = std::numeric_limits<double>::infinity();
@@ -112,13 +118,14 @@ std::vector<live::EffectState> effects_offered(const LiveChapter& chapter, const
     state.adds = effect.stages;
     if (const Switch* s = switch_of(effect.name)) {
       state.key = std::string(s->key) + "=" + value_for_on(*s, scene);
-      std::string kept = chapter.keeps ? chapter.keeps(scene, effect.name) : "";
-      if (is_asked_for_elsewhere(s->key, scene)) kept = "shapes or pairs ask for it, too";
-      state.can_switch = scene.mark(s->key).has_value() && kept.empty();
-      if (!kept.empty()) state.why += "; it stays on: " + kept;
+      state.can_switch = scene.mark(s->key).has_value() && kept_on(chapter, *s, scene).empty();
     }
     list.push_back(state);
   }
+  for (live::EffectState& state : list)
+    if (const Switch* s = switch_of(state.name))
+      if (const std::string kept = kept_on(chapter, *s, scene); !kept.empty())
+        state.why += "; it stays on: " + kept;
   for (const Switch& s : kSwitches) {
     const auto is_on = [&](const live::EffectState& e) { return e.name == s.effect; };
     if (!find_scene_key(s.key)->known_in(chapter.number) || std::any_of(list.begin(), list.end(), is_on))
