@@ -50,6 +50,8 @@ class MotionFile {
     for (std::size_t i = 1; i < file_.json["nodes"].size(); ++i) children.push_back(i);
     file_.json["nodes"][0]["children"] = children;
     file_.json["scene"] = 0;
+    for (const std::string& account : r_.accounts_)
+      file_.json["extras"]["algorithm"].push_back(Json::parse(account));
     file_.add("scenes", {{"name", r_.title_}, {"nodes", {0}}, {"extras", extras()}});
   }
 

@@ -37,6 +37,9 @@ class MotionRecording {
   // decides which curves there are.
   void value(const std::string& group, const std::string& name, const std::string& unit, double value);
 
+  // An account of one frame, as JSON (algorithm.hpp).
+  void algorithm(std::string account) { accounts_.push_back(std::move(account)); }
+
   // Writes both files. Returns a remark for the summary: what was left out, if anything.
   std::string write(const std::filesystem::path& folder);
   // The bytes of motion.glb. Without a frame: shapes and bodies where they were added, and no animation.
@@ -82,6 +85,7 @@ class MotionRecording {
   std::vector<Contact> contacts_;
   std::vector<Series> series_;
   std::vector<Hull> hulls_;
+  std::vector<std::string> accounts_;
   std::vector<double> frame_times_;  // of the frames that are kept
   std::size_t keys_ = 0;
   long frames_ = 0;   // seen so far

@@ -50,9 +50,28 @@ int port_of(const std::string& text) {
   return port;
 }
 
+// The frames that --algorithm names: numbers from 1 on, the word "first", or "none" alone.
+std::vector<int> frames_of(const std::string& text) {
+  if (text == "none") return {};
+  std::vector<int> frames;
+  for (std::size_t start = 0; start <= text.size();) {
+    const std::size_t end = std::min(text.find(',', start), text.size());
+    const std::string word = text.substr(start, end - start);
+    int frame = kFirstContact;
+    const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), frame);
+    const bool is_number = error == std::errc() && stop == word.data() + word.size() && frame >= 1;
+    if (!is_number && word != "first")
+      throw InputError("--algorithm " + one_line(text) + ": " + in_quotes(word) +
+                       " is no frame; name frames from 1 on, as 12,40, or 'first', or 'none'");
+    frames.push_back(is_number ? frame : kFirstContact);
+    start = end + 1;
+  }
+  return frames;
+}
+
 // A live scene writes no results, and runs until it is stopped.
 void refuse_beside_live(const CLI::App& app) {
-  for (const char* other : {"--explain", "--sweep", "--out", "--poses", "--clear", "--mine"})
+  for (const char* other : {"--explain", "--sweep", "--out", "--poses", "--algorithm", "--clear", "--mine"})
     if (app.get_option(other)->count() > 0)
       throw InputError(std::string(other) + " has no effect beside --live; leave one of them out");
 }
@@ -63,6 +82,8 @@ const std::vector<ChapterOption>& chapter_options() {
   static const std::vector<ChapterOption> options = {
       {"--certificate", 1, 2, "writes certificate.csv, every advance of a query"},
       {"--poses", 4, all_later_chapters, "writes poses.csv, every body at every frame"},
+      {"--algorithm", 4, all_later_chapters,
+       "names the frames whose algorithm the recording shows step by step"},
       {"--mesh-path", 2, all_later_chapters, "names folders in which meshes are looked for"},
       {"--live", 4, all_later_chapters, "opens the scene to a browser while it runs"},
   };
@@ -72,7 +93,7 @@ const std::vector<ChapterOption>& chapter_options() {
 Options parse_options(int argc, char** argv, int chapter, const std::string& purpose,
                       const std::string& example) {
   Options options;
-  std::vector<std::string> out, sweep, mesh_path, live;
+  std::vector<std::string> out, sweep, mesh_path, live, algorithm;
   CLI::App app(purpose);
   app.footer("Example:\n  " + example);
   app.add_option("SCENE", options.scene, "The scene to run, a YAML file")->required()->type_name("FILE");
@@ -89,6 +110,11 @@ Options parse_options(int argc, char** argv, int chapter, const std::string& pur
       ->disable_flag_override();
   app.add_flag("--poses", options.poses, "Write poses.csv: every body at every frame (chapter 4 on)")
       ->disable_flag_override();
+  add_repeated(
+      app, "--algorithm", algorithm,
+      "Show the algorithm of these frames step by step in the recording: numbers, 'first' (the first with "
+      "a contact; the default) or 'none' (chapter 4 on)")
+      ->type_name("FRAME,FRAME,...");
   app.add_flag("--live{0}", live,
                "Open the scene to a browser while it runs; print the page's address (chapter 4 on)");
   app.add_flag("--clear", options.clear, "Run on the text's clear versions instead of the fast ones")
@@ -112,6 +138,12 @@ Options parse_options(int argc, char** argv, int chapter, const std::string& pur
     refuse_beside_live(app);
     options.live = port_of(once("--live", live, "there is one page"));
   }
+  if (!algorithm.empty() && chapter >= 5 && (options.clear || options.mine))
+    throw InputError(
+        "--algorithm has no effect beside --clear and --mine from chapter 5 on: it shows the fast methods; "
+        "leave one of them out");
+  if (!algorithm.empty())
+    options.algorithm = frames_of(once("--algorithm", algorithm, "name all frames in one list, as 12,40"));
   options.sweep = once("--sweep", sweep, "a run sweeps one key: sweep one, and --set the other");
   if (!out.empty()) {
     options.out = once("--out", out, "the results go into one folder");

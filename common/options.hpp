@@ -8,6 +8,9 @@
 
 namespace fc {
 
+// In a list of frames: the first one with an impact or a contact.
+constexpr int kFirstContact = 0;
+
 struct Options {
   std::filesystem::path scene;
   std::optional<std::filesystem::path> out;      // --out
@@ -15,8 +18,9 @@ struct Options {
   std::string sweep;                             // --sweep; empty = none
   std::vector<std::filesystem::path> mesh_path;  // --mesh-path, in order
   bool explain = false, certificate = false, poses = false, quiet = false, clear = false, mine = false;
-  std::optional<int> live;  // --live: the port; 0 = any free one
-  std::string help;         // the text for --help; empty = not asked for
+  std::vector<int> algorithm = {kFirstContact};  // --algorithm: frames whose steps the recording shows
+  std::optional<int> live;                       // --live: the port; 0 = any free one
+  std::string help;                              // the text for --help; empty = not asked for
 };
 
 // An option that has an effect in some chapters only: in all others it is refused.

@@ -141,7 +141,8 @@ int run_with(const Options& options, const Chapter& chapter) {
                            options.poses,
                            options.quiet,
                            options.clear || options.mine,
-                           pieces};
+                           pieces,
+                           options.algorithm};
   return sweep.values.empty() ? run_once(chapter, scene, context)
                               : run_sweep(chapter, source, sweep, context);
 }

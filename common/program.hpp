@@ -77,6 +77,7 @@ struct RunContext {
   bool quiet = false;             // --quiet
   bool clear = false;             // --clear or --mine: run on the chapter's pieces
   std::vector<PieceUse> pieces = {};  // then: whose each piece is
+  std::vector<int> algorithm = {};    // --algorithm: frames, or kFirstContact (options.hpp)
 };
 
 // One line of --explain.

@@ -1,6 +1,7 @@
 #include "ch04_multibody_stepping/live.hpp"
 
 #include "ch04_multibody_stepping/live_world.hpp"
+#include "ch04_multibody_stepping/show_frame.hpp"
 
 namespace fc::world {
 
@@ -38,6 +39,9 @@ LiveChapter live_chapter() {
   chapter.name = "ch04_multibody_stepping";
   chapter.prepare = [](const Scene& scene, World&, const LiveBefore&) { return live_step(scene); };
   chapter.explain = [](const Scene& scene, const World&) { return explain(scene); };
+  chapter.algorithm = [](const Scene& scene, World& copy, std::int64_t frame, double t0) {
+    return algorithm::json(show_frame(scene, copy, frame, t0));
+  };
   return chapter;
 }
 

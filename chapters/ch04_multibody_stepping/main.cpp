@@ -2,6 +2,7 @@
 #include "ch04_multibody_stepping/live.hpp"
 #include "ch04_multibody_stepping/on_pieces.hpp"
 #include "ch04_multibody_stepping/run.hpp"
+#include "ch04_multibody_stepping/show_frame.hpp"
 #include "common/live/serve.hpp"
 #include "common/program.hpp"
 
@@ -10,9 +11,10 @@ namespace {
 using namespace fc;
 
 int run(const Scene& scene, const RunContext& context, const world::clear::Pieces& pieces, Summary& summary) {
-  return world::run_scene(scene, context, summary, world::step, false, [&](world::World& world) {
+  const auto prepare = [&](world::World& world) {
     if (context.clear) world::put_on_pieces(world, scene, pieces);
-  });
+  };
+  return world::run_scene(scene, context, summary, world::step, false, prepare, {}, world::show_frame);
 }
 
 }  // namespace

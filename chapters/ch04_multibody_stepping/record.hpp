@@ -43,6 +43,8 @@ class Recorder {
   void instant(const World& world, double time);
   // After a step that ended at t (s).
   void frame(const World& world, int number, double t, const StepReport& report);
+  // An account of one frame, for the recording.
+  void algorithm(std::string account) { motion_.algorithm(std::move(account)); }
   // Closes the tables and writes the motion; returns a remark on the motion for the summary.
   std::string close();
 

@@ -1,12 +1,13 @@
 #include "ch04_multibody_stepping/run.hpp"
 
 #include "ch04_multibody_stepping/record.hpp"
+#include "ch04_multibody_stepping/show_recording.hpp"
 #include "common/stopwatch.hpp"
 
 namespace fc::world {
 
 int run_scene(const Scene& scene, const RunContext& context, Summary& summary, const StepFunction& step_frame,
-              bool kinds, const Prepare& prepare, const MoreColumns& more) {
+              bool kinds, const Prepare& prepare, const MoreColumns& more, const FrameAccount& account) {
   const Stopwatch watch;
   World world = build_world(scene);
   if (prepare) prepare(world);
@@ -22,17 +23,21 @@ int run_scene(const Scene& scene, const RunContext& context, Summary& summary, c
   const StepSpec& step = *scene.step;
   Recorder recorder(scene, world, context, kinds, more);
   recorder.start(world);
+  RecordedAccounts accounts(scene, context.algorithm, account);
   Progress progress("frames", step.frames, context.quiet);
   try {
     for (int frame = 0; frame < step.frames; ++frame) {
+      accounts.before(world);
       const StepReport report =
           step_frame(world, step.dt,
                      {[&](const ImpactRecord& impact) { recorder.impact(impact); },
                       [&](const World& now, double time) { recorder.instant(now, time); },
                       [&](const Sighting& sighting) { recorder.sighting(sighting); }});
       recorder.frame(world, frame + 1, (frame + 1) * step.dt, report);
+      accounts.after(world, frame, report);
       progress.update(frame + 1);
     }
+    accounts.write(recorder, summary);
   } catch (...) {  // what was simulated so far stays, and can be watched
     recorder.close();
     throw;

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "ch05_resting_contact/rest_run.hpp"
+#include "ch05_resting_contact/show_rest.hpp"
 
 namespace fc::resting {
 
@@ -55,6 +56,9 @@ world::LiveChapter live_chapter() {
   };
   chapter.explain = [](const Scene& scene, const world::World& world) {
     return scene.envelope ? explain(scene, world) : world::explain(scene);
+  };
+  chapter.algorithm = [](const Scene& scene, world::World& copy, std::int64_t frame, double t0) {
+    return algorithm::json(resting::show_frame(scene, copy, frame, t0));
   };
   return chapter;
 }

@@ -1,4 +1,5 @@
 // Chapter 5: resting and sliding contact, by plans for the bodies that are nearer than the envelope; all else is chapter 4's.
+#include "ch04_multibody_stepping/show_frame.hpp"
 #include "ch05_resting_contact/clear/clear_run.hpp"
 #include "ch05_resting_contact/live_rest.hpp"
 #include "ch05_resting_contact/rest_run.hpp"
@@ -17,7 +18,8 @@ std::vector<Effect> explain(const Scene& scene) {
 int run(const Scene& scene, const RunContext& context, Summary& summary) {
   if (context.clear) return resting::run_clear_scene(scene, context, summary, pieces);
   if (scene.envelope) return resting::run_scene(scene, context, summary);
-  return world::run_scene(scene, context, summary, world::step, true);  // chapter 4's motion, to the byte
+  return world::run_scene(scene, context, summary, world::step, true, {}, {},
+                          world::show_frame);  // chapter 4's motion, to the byte
 }
 
 void check(const Scene& scene) {

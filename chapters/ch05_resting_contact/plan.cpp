@@ -8,12 +8,6 @@
 namespace fc::resting {
 namespace {
 
-// A path is clear if its gap stays above this part of the margin, or half of what it was.
-constexpr double kFloor = 1.0 / 64;
-
-// A share of the margin. Two bodies that approach fast, and bounce, stop at half of this gap, as in chapter 4.
-constexpr double kStop = 0.25;
-
 // Of the margin: above this gap a pair that bounces and approaches fast is not yet a contact.
 constexpr double kRoom = 0.55;
 

@@ -10,6 +10,10 @@ namespace fc::resting {
 
 // A plan is halved where its paths are not clear, down to this part of a frame.
 constexpr double kShortest = 1.0 / 4096;
+// A path is clear if its gap stays above this part of the margin, or half of what it was.
+constexpr double kFloor = 1.0 / 64;
+// A share of the margin. Two bodies that approach fast, and bounce, stop at half of this gap, as in chapter 4.
+constexpr double kStop = 0.25;
 // A plan that would leave less than this share of the rest of the frame takes all of it.
 constexpr double kNearlyAll = 0.75;
 

@@ -4,6 +4,8 @@
 
 #include <memory>
 
+#include "ch05_resting_contact/show_rest.hpp"
+
 namespace fc::resting {
 namespace {
 
@@ -95,7 +97,9 @@ int run_scene(const Scene& scene, const RunContext& context, Summary& summary, c
   };
   more.contact_columns = of_law.contact_columns;
   more.contact_cells = of_law.contact_cells;
-  const int code = world::run_scene(scene, context, summary, step, true, prepare, more);
+  world::FrameAccount account = options.account ? options.account : world::FrameAccount(show_frame);
+  if (context.clear) account = {};  // it would show other methods than those that run
+  const int code = world::run_scene(scene, context, summary, step, true, prepare, more, account);
   summary.add("envelope", resting->envelope(), "m");
   summary.add("nothing bounces below (envelope / dt)", resting->envelope() / scene.step->dt, "m/s");
   summary.add("resting contacts with an impulse", std::int64_t{all.resting});

@@ -12,6 +12,8 @@ struct RunOptions {
   std::function<std::unique_ptr<ContactLaw>(world::World&)> law = {};
   // The columns that it adds to the tables; `last` is the report of the last frame.
   std::function<world::MoreColumns(const RestReport& last)> columns = {};
+  // Its account of a frame; empty: this chapter's.
+  world::FrameAccount account = {};
 };
 
 // The effects for --explain: chapter 4's, and those of the envelope.

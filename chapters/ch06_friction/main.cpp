@@ -6,6 +6,7 @@
 #include "ch06_friction/clear/pieces.hpp"
 #include "ch06_friction/coulomb_law.hpp"
 #include "ch06_friction/rubbing.hpp"
+#include "ch06_friction/show_cones.hpp"
 #include "common/live/serve.hpp"
 
 namespace {
@@ -20,13 +21,14 @@ int run(const Scene& scene, const RunContext& context, Summary& summary,
       throw InputError(
           "--clear and --mine: this scene has no friction; give it the key 'friction', or run it with chapter 5");
     if (scene.envelope) return resting::run_scene(scene, context, summary);
-    return world::run_scene(scene, context, summary, world::step, true);
+    return world::run_scene(scene, context, summary, world::step, true, {}, {}, world::show_frame);
   }
   friction::refuse_idle_keys(scene);
   resting::RunOptions options;
   // ANCHOR: law
   options.law = [](world::World& world) { return std::make_unique<friction::CoulombLaw>(world); };
   // ANCHOR_END: law
+  options.account = friction::show_frame;
   int unsolved = 0;
   if (context.clear)
     options.law = [&](world::World& world) {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "ch06_friction/show_cones.hpp"
+
 namespace fc::friction {
 
 Scene with_envelope(const Scene& scene) {
@@ -60,6 +62,9 @@ world::LiveChapter live_chapter() {
     return resting::live_step(scene, world, before, std::make_unique<CoulombLaw>(world), "friction");
   };
   chapter.explain = [](const Scene& scene, const world::World& world) { return explain(scene, world); };
+  chapter.algorithm = [](const Scene& scene, world::World& copy, std::int64_t frame, double t0) {
+    return algorithm::json(friction::show_frame(scene, copy, frame, t0));
+  };
   chapter.keeps = [](const Scene& scene, const std::string& effect) -> std::string {
     return effect == "envelope" && asks_for_friction(scene) ? "friction needs contacts that last" : "";
   };

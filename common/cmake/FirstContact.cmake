@@ -99,6 +99,8 @@ function(fc_add_stage name)
   get_property(taken DIRECTORY PROPERTY FC_TAKEN)
   list(REMOVE_ITEM sources ${taken})
   fc_add_library(${name} UNITY SOURCES ${sources} LINKS ${ARG_LINKS})
+  file(GLOB shown show_*.cpp)  # accounts of a frame: each on its own, so that the method's files are compiled together as ever
+  set_source_files_properties(${shown} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   get_filename_component(folder ${CMAKE_CURRENT_SOURCE_DIR} NAME)
   fc_install_library(${name} ${folder})
   fc_install_headers(${folder})
