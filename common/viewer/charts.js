@@ -1,0 +1,128 @@
+// Charts of a step of the algorithm, as SVG -------------------------------------------------------------------------------------
+
+function svg(tag, attributes, ...children) {
+  const element = document.createElementNS("http://www.w3.org/2000/svg", tag);
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
+  element.append(...children);
+  return element;
+}
+// How wide a text is, nearly: in the page's 12 px letters.
+const roomFor = words => 6.4 * words.length;
+
+// Round numbers that part a range into some four pieces.
+function ticksOf(low, high, pieces = 4) {
+  const raw = (high - low) / pieces, power = 10 ** Math.floor(Math.log10(raw)), step = power * [1, 2, 2.5, 5, 10].find(f => f * power >= 0.999 * raw);
+  const ticks = [];
+  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k) ticks.push(k * step);
+  return ticks;
+}
+function decadesOf(low, high, most = 6) {
+  const stride = Math.max(1, Math.ceil((high - low) / most)), ticks = [];
+  for (let k = Math.ceil(low); k <= high + 1e-9; k += stride) ticks.push(k);
+  return ticks;
+}
+// Ticks with as many digits as tell them apart.
+function tickTexts(ticks) {
+  const most = Math.max(...ticks.map(Math.abs)), step = ticks.length > 1 ? ticks[1] - ticks[0] : most;
+  if (most >= 1e5 || most < 1e-3) {
+    const digits = Math.max(0, Math.min(12, Math.floor(Math.log10(most || 1)) - Math.floor(Math.log10(step || 1) + 1e-9)));
+    return ticks.map(v => v === 0 ? "0" : v.toExponential(digits));
+  }
+  const two = Math.abs(step / 10 ** Math.floor(Math.log10(step) + 1e-9) - 2.5) < 1e-6 ? 1 : 0;
+  return ticks.map(v => v.toFixed(Math.max(0, Math.min(9, two - Math.floor(Math.log10(step || 1) + 1e-9)))));
+}
+
+// The range of values, with some air; of a logarithm in decades, of the positive ones.
+function rangeOf(values, log) {
+  const usable = values.filter(v => Number.isFinite(v) && (!log || v > 0)).map(v => log ? Math.log10(v) : v);
+  if (!usable.length) return [0, 1];
+  let low = Math.min(...usable), high = Math.max(...usable);
+  if (log) return [Math.floor(low), Math.max(Math.ceil(high), Math.floor(low) + 1)];
+  if (low >= 0 && low < 0.4 * high) low = 0;
+  if (!(high > low)) { const half = Math.abs(low) || 1; return [low - 0.5 * half, low + 0.5 * half]; }
+  const air = 0.06 * (high - low);
+  return [low === 0 ? 0 : low - air, high + air];
+}
+
+function chartOf({ x, y, log, curves, marks: notes }, width) {
+  const height = 240, points = curves.flatMap(c => c.points), noted = notes || [];
+  const xs = [...points, ...noted].map(p => p[0]).filter(Number.isFinite), [bottom, top] = rangeOf([...points, ...noted].map(p => p[1]), log);
+  const [left, right] = xs.length && Math.max(...xs) > Math.min(...xs) ? [Math.min(...xs), Math.max(...xs)] : rangeOf(xs, false);
+  const ySteps = log ? decadesOf(bottom, top) : ticksOf(bottom, top), yTexts = log ? ySteps.map(k => k >= -2 && k <= 3 ? String(10 ** k).slice(0, 6) : `1e${k}`) : tickTexts(ySteps);
+  const area = { left: 14 + Math.max(...yTexts.map(roomFor)), right: width - 14, top: 26, bottom: height - 40 };
+  const px = v => area.left + (area.right - area.left) * (v - left) / (right - left);
+  const py = v => { const level = log ? (v > 0 ? Math.log10(v) : bottom) : v; return area.bottom - (area.bottom - area.top) * (level - bottom) / (top - bottom); };
+  const drawing = svg("svg", { width, height, viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": `${y} against ${x}` });
+  ySteps.forEach((v, k) => {
+    const at = py(log ? 10 ** v : v);
+    drawing.append(svg("line", { x1: area.left, x2: area.right, y1: at, y2: at, class: "grid" }), svg("text", { x: area.left - 6, y: at + 4, class: "tick", "text-anchor": "end" }, yTexts[k]));
+  });
+  let xSteps = ticksOf(left, right), xTexts = tickTexts(xSteps);
+  while (xSteps.length > 2 && Math.max(...xTexts.map(roomFor)) * xSteps.length > 0.9 * (area.right - area.left)) {  // fewer, so that none touch
+    xSteps = xSteps.filter((_, k) => k % 2 === 0);
+    xTexts = xTexts.filter((_, k) => k % 2 === 0);
+  }
+  xSteps.forEach((v, k) => drawing.append(svg("line", { x1: px(v), x2: px(v), y1: area.bottom, y2: area.bottom + 4, class: "axis" }), svg("text", { x: px(v), y: area.bottom + 17, class: "tick", "text-anchor": "middle" }, xTexts[k])));
+  drawing.append(svg("line", { x1: area.left, x2: area.right, y1: area.bottom, y2: area.bottom, class: "axis" }), svg("text", { x: area.left - 4, y: 14, class: "name", "text-anchor": "start" }, y),
+                 svg("text", { x: area.right, y: height - 6, class: "name", "text-anchor": "end" }, x));
+  for (const curve of curves) drawing.append(...curveParts(curve, px, py));
+  drawing.append(...noteParts(noted, px, py, area));
+  const legend = make("div", { className: "curves" }, ...curves.map(c => { const line = make("i"); line.style.background = roleColour(c.role); return make("span", {}, line, c.name); }));
+  return [drawing, legend];
+}
+
+// A curve through its points, or in steps; its points, too, where they are few.
+function curveParts({ role, points, steps }, px, py) {
+  const seen = points.filter(p => Number.isFinite(p[0]) && Number.isFinite(p[1]));
+  const way = seen.map(([x, y], k) => k === 0 ? `M${px(x)} ${py(y)}` : steps ? `H${px(x)}V${py(y)}` : `L${px(x)} ${py(y)}`).join("");
+  const colour = roleColour(role), parts = [svg("path", { d: way, fill: "none", stroke: colour, "stroke-width": role === "now" ? 2.5 : 1.75, "stroke-linejoin": "round" })];
+  if (seen.length <= 24 && !steps) parts.push(...seen.map(([x, y]) => svg("circle", { cx: px(x), cy: py(y), r: 2.5, fill: colour })));
+  return parts;
+}
+
+// Texts at points, each where it covers none before it.
+function noteParts(notes, px, py, area) {
+  const boxes = [], parts = [];
+  for (const [x, y, words] of notes) {
+    if (!Number.isFinite(x) || !Number.isFinite(y)) continue;
+    const cx = px(x), cy = py(y), wide = roomFor(words);
+    let best = null;
+    for (const rise of [-9, 16, -24, 31, -39, 46]) {
+      for (const from of [cx + 6, cx - 6 - wide, cx - wide / 2]) {
+        const left = Math.max(area.left, Math.min(area.right - wide, from)), box = [left, cy + rise - 11, left + wide, cy + rise + 3];
+        if (box[1] < area.top - 8 || box[3] > area.bottom - 1 || boxes.some(other => overlap(box, other))) continue;
+        best = box;
+        break;
+      }
+      if (best) break;
+    }
+    parts.push(svg("circle", { cx, cy, r: 4, class: "noted" }));
+    if (!best) continue;
+    boxes.push(best, [cx - 4, cy - 4, cx + 4, cy + 4]);
+    parts.push(svg("text", { x: best[0], y: best[3] - 3, class: "note" }, words));
+  }
+  return parts;
+}
+
+// Bars from zero, one below the other: name, bar, value and a word on it.
+function barsOf({ title, unit, rows }, width) {
+  const values = rows.map(r => r.value).filter(Number.isFinite), high = Math.max(0, ...values), low = Math.min(0, ...values), span = high - low || 1;
+  const told = rows.map(r => `${Number.isFinite(r.value) ? short(r.value) : "–"}${r.note ? `  ${r.note}` : ""}`), tall = 22, top = 26, bottom = top + tall * rows.length;
+  const names = Math.min(0.34 * width, 8 + Math.max(0, ...rows.map(r => roomFor(r.label)))), numbers = Math.min(0.36 * width, 8 + Math.max(0, ...told.map(roomFor)));
+  const from = names, until = width - numbers, px = v => from + (until - from) * (v - low) / span, height = bottom + 36;
+  const drawing = svg("svg", { width, height, viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": title });
+  const ticks = ticksOf(low, low + span, 3), texts = tickTexts(ticks), cut = (words, space) => roomFor(words) <= space ? words : words.slice(0, Math.max(1, Math.floor(space / 6.4) - 1)) + "…";
+  drawing.append(svg("text", { x: 0, y: 14, class: "name" }, unit && unit !== "1" ? `${title} [${unit}]` : title));
+  ticks.forEach((v, k) => {
+    drawing.append(svg("line", { x1: px(v), x2: px(v), y1: top, y2: bottom + 4, class: "grid" }));
+    if (k % Math.ceil(roomFor(texts[k]) * ticks.length / (until - from)) === 0) drawing.append(svg("text", { x: px(v), y: bottom + 18, class: "tick", "text-anchor": "middle" }, texts[k]));
+  });
+  rows.forEach(({ label, value, role }, k) => {
+    const y = top + tall * k, full = svg("title", {}, `${label}: ${told[k]}`);
+    const row = svg("g", {}, full, svg("text", { x: 0, y: y + 15, class: "label" }, cut(label, names - 4)), svg("text", { x: until + 8, y: y + 15, class: "label" }, cut(told[k], numbers - 8)));
+    if (Number.isFinite(value)) row.append(svg("rect", { x: Math.min(px(0), px(value)), y: y + 4, width: Math.max(1, Math.abs(px(value) - px(0))), height: tall - 8, fill: roleColour(role), rx: 1.5 }));
+    drawing.append(row);
+  });
+  drawing.append(svg("line", { x1: px(0), x2: px(0), y1: top, y2: bottom + 4, class: "axis" }));
+  return [drawing];
+}
