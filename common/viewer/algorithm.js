@@ -85,7 +85,8 @@ function toStep(index) {
 function drawCharts() {
   if (!algorithm.open) return;
   const { chart, bars } = stepNow(), width = $("account").clientWidth - 32;
-  $("stepChart").replaceChildren(...(chart ? chartOf(chart, width) : []));
+  const height = Math.max(170, Math.min(240, 0.27 * $("account").clientHeight));
+  $("stepChart").replaceChildren(...(chart ? chartOf(chart, width, height) : []));
   $("stepBars").replaceChildren(...(bars ? barsOf(bars, width) : []));
 }
 

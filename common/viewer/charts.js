@@ -44,11 +44,11 @@ function rangeOf(values, log) {
   return [low === 0 ? 0 : low - air, high + air];
 }
 
-function chartOf({ x, y, log, curves, marks: notes }, width) {
-  const height = 240, points = curves.flatMap(c => c.points), noted = notes || [];
+function chartOf({ x, y, log, curves, marks: notes }, width, height) {
+  const points = curves.flatMap(c => c.points), noted = notes || [];
   const xs = [...points, ...noted].map(p => p[0]).filter(Number.isFinite), [bottom, top] = rangeOf([...points, ...noted].map(p => p[1]), log);
   const [left, right] = xs.length && Math.max(...xs) > Math.min(...xs) ? [Math.min(...xs), Math.max(...xs)] : rangeOf(xs, false);
-  const ySteps = log ? decadesOf(bottom, top) : ticksOf(bottom, top), yTexts = log ? ySteps.map(k => k >= -2 && k <= 3 ? String(10 ** k).slice(0, 6) : `1e${k}`) : tickTexts(ySteps);
+  const ySteps = log ? decadesOf(bottom, top) : ticksOf(bottom, top), yTexts = log ? ySteps.map(k => bottom >= -3 && top <= 3 ? String(+(10 ** k).toPrecision(1)) : `1e${k}`) : tickTexts(ySteps);
   const area = { left: 14 + Math.max(...yTexts.map(roomFor)), right: width - 14, top: 26, bottom: height - 40 };
   const px = v => area.left + (area.right - area.left) * (v - left) / (right - left);
   const py = v => { const level = log ? (v > 0 ? Math.log10(v) : bottom) : v; return area.bottom - (area.bottom - area.top) * (level - bottom) / (top - bottom); };
@@ -111,7 +111,7 @@ function barsOf({ title, unit, rows }, width) {
   const names = Math.min(0.34 * width, 8 + Math.max(0, ...rows.map(r => roomFor(r.label)))), numbers = Math.min(0.36 * width, 8 + Math.max(0, ...told.map(roomFor)));
   const from = names, until = width - numbers, px = v => from + (until - from) * (v - low) / span, height = bottom + 36;
   const drawing = svg("svg", { width, height, viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": title });
-  const ticks = ticksOf(low, low + span, 3), texts = tickTexts(ticks), cut = (words, space) => roomFor(words) <= space ? words : words.slice(0, Math.max(1, Math.floor(space / 6.4) - 1)) + "…";
+  const ticks = ticksOf(low, low + span), texts = tickTexts(ticks), cut = (words, space) => roomFor(words) <= space ? words : words.slice(0, Math.max(1, Math.floor(space / 6.4) - 1)) + "…";
   drawing.append(svg("text", { x: 0, y: 14, class: "name" }, unit && unit !== "1" ? `${title} [${unit}]` : title));
   ticks.forEach((v, k) => {
     drawing.append(svg("line", { x1: px(v), x2: px(v), y1: top, y2: bottom + 4, class: "grid" }));

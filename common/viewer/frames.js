@@ -53,7 +53,7 @@ function forgetFrames(side) {
 }
 
 function rememberImpacts(side, frame) {
-  const dt = live.state ? live.state.dt : frame.t - side.before.t, { impacts } = side;
+  const dt = live.state ? live.state.dt : frame.t - side.before.t || 1 / 60, { impacts } = side;
   side.largest *= 0.998;  // a hard blow makes the others' arrows short only for a while
   for (let k = 0; k < frame.contacts; ++k) {
     const o = 10 * k, m = frame.marks, size = Math.hypot(m[o + 6], m[o + 7], m[o + 8]);

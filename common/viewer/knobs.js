@@ -65,8 +65,8 @@ function knobRow(k) {
   note.textContent = k.meaning + (k.restarts ? " Restarts the scene." : "");
   const why = make("div", { className: "note why", hidden: !disabled }, k.why || "This cannot be set here.");
   const head = make("label", { htmlFor: id }, make("code", {}, k.key));
-  const row = make("div", { className: disabled ? "knob off" : "knob" }, make("div", { className: "head" }, head, other, ...(k.restarts ? [make("span", { className: "tag" }, "restarts")] : []), field, make("span", { className: "unit" }, k.unit === "1" ? "" : k.unit || "")),
-                   ...(slider ? [slider] : []), note, why, answer);
+  const row = make("div", { className: disabled ? "knob off" : "knob" }, make("div", { className: "head" }, head, ...(k.restarts ? [make("span", { className: "tag" }, "restarts")] : []), field, make("span", { className: "unit" }, k.unit === "1" ? "" : k.unit || "")),
+                   ...(slider ? [slider] : []), other, note, why, answer);
   const knob = { ...k, row, other, field, slider, answer, busy: 0 };
   knobs.set(k.key, knob);
   field.onchange = () => turn(knob, field.value);

@@ -52,11 +52,18 @@ function prepareMarks(list) {
   Object.assign(marks, { low, high });
 }
 
+// One instance, whose axes are the world's.
+function placeInWorld(geometry, paint) {
+  const out = room(geometry, 1).fill(0, 0, perInstance);
+  out[0] = out[5] = out[10] = 1;
+  out.set(paint, 12);
+  return transfer(geometry, 1);
+}
+
 // See-through solids, after the bodies.
 function drawStep() {
   for (const { geometry, role, edges } of marks.solids) {
-    lay(room(geometry, 1), 0, 0, 0, 0, 0, 0, 1, 1, 1, linear(roleColour(role)));  // where it says: in the world's axes
-    const count = transfer(geometry, 1);
+    const count = placeInWorld(geometry, linear(roleColour(role)));
     glass(true);
     look(edges ? 0.16 : 0.26, 0.75);
     drawFaces(geometry, count);
@@ -162,6 +169,16 @@ function drawLabel({ at, text: words }, boxes) {
   context.fillText(words, left + 5, top + tall / 2 + 0.5);
 }
 
+// Adds small boxes along a line of few pieces.
+function keepClear(points, boxes) {
+  if (points.length > 5) return;
+  for (let k = 0; k + 1 < points.length; ++k) {
+    if (!toClip(points[k], pen.a) || !toClip(points[k + 1], pen.b)) continue;
+    const x = xOf(pen.a), y = yOf(pen.a), dx = xOf(pen.b) - x, dy = yOf(pen.b) - y, count = Math.min(60, Math.ceil(Math.hypot(dx, dy) / 16));
+    for (let i = 1; i < count; ++i) boxes.push([x + dx * i / count - 1, y + dy * i / count - 1, x + dx * i / count + 1, y + dy * i / count + 1]);
+  }
+}
+
 // All that is not solid: what was before lies below, what this step adds above, labels last.
 const layers = [["past"], ["a", "b", "good", "bad", "force"], ["now"]];
 function drawOverlay() {
@@ -173,7 +190,7 @@ function drawOverlay() {
   context.setTransform(ratio, 0, 0, ratio, 0, 0);
   context.clearRect(0, 0, pen.w, pen.h);
   context.font = "13px system-ui, sans-serif"; context.textBaseline = "middle"; context.textAlign = "left";
-  const boxes = [[pen.w - 90, 0, pen.w, 90]];  // the axes are there
+  const boxes = [[pen.w - 90, 0, pen.w, 90]];  // what labels keep clear of: the axes, points, and lines
   for (const roles of layers)
     for (const mark of marks.list) {
       const { kind, role } = mark;
@@ -181,6 +198,7 @@ function drawOverlay() {
       if (kind === "plane") drawPolyline(mark.ring, true, role, 1.5);
       if (kind === "line") drawPolyline(mark.points, mark.closed, role, widthOf(role));
       if (kind === "arrow") drawArrow(mark.from, mark.to, role);
+      if (kind === "line" || kind === "arrow") keepClear(pointsOf(mark), boxes);
       if (kind !== "point") continue;
       drawPoint(mark.at, role);
       if (toClip(mark.at, pen.a)) boxes.push([xOf(pen.a) - 6, yOf(pen.a) - 6, xOf(pen.a) + 6, yOf(pen.a) + 6]);
