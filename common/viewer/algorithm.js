@@ -2,7 +2,8 @@
 // A document tells what happened in a frame, in parts, one or more for a chapter, and these in steps. A running scene is asked for
 // that of its next frame; a recording has those that its run was asked for. common/live/STREAM.md says what is in it.
 
-const algorithm = { open: false, asking: false, documents: [], chosen: 0, steps: [], at: 0 };  // steps: of all parts, one after another
+const algorithm = { open: false, asking: false, documents: [], chosen: 0, steps: [], at: 0, part: -1, camera: null };
+// steps: of all parts, one after another; camera: how one looked before it came near by itself
 
 const documentNow = () => algorithm.documents[algorithm.chosen];
 const stepNow = () => algorithm.steps[algorithm.at].step;
@@ -51,6 +52,7 @@ function showDocuments(documents, chosen) {
 
 function chooseDocument(index) {
   algorithm.chosen = index;
+  algorithm.part = -1;
   const { frame, t0, t1, parts } = documentNow();
   algorithm.steps = parts.flatMap((part, k) => part.steps.map((step, i) => ({ part: k, index: i, step })));
   if (!isLive) now.time = Math.min(motion.duration, t0);
@@ -78,7 +80,25 @@ function toStep(index) {
   prepareMarks(step.draw || []);
   drawCharts();
   $("stepLook").disabled = !marks.list.length;
+  if (part !== algorithm.part) lookAtPart(parts[part]);
+  algorithm.part = part;
   redraw();
+}
+
+// The eye comes near by itself where all that a part draws would be small, or out of sight.
+function lookAtPart({ steps }) {
+  const { low, high } = extentOf(steps.flatMap(s => s.draw || []));
+  if (!(high[0] >= low[0])) return;
+  const middle = low.map((v, i) => 0.5 * (v + high[i])), size = Math.hypot(...low.map((v, i) => high[i] - v)), eye = eyeOf(), back = cameraAxes()[2];
+  const away = dot3(back, eye.map((v, i) => v - middle[i])), aside = Math.hypot(...middle.map((v, i) => eye[i] - away * back[i] - v));
+  if (size > 0.35 * camera.distance && away > 0 && aside < 0.3 * away) return;
+  const shown = new Set(steps.flatMap(s => (s.poses || []).map(p => p[0])));
+  const reach = [...shown].reduce((most, i) => motion.bodies[i] && motion.bodies[i].moves ? Math.max(most, motion.bodies[i].geometry.radius) : most, 0);
+  comeNear(middle, Math.max(2.2 * size, 3.2 * reach, 1e-3));
+}
+function comeNear(target, distance) {
+  algorithm.camera = algorithm.camera || { ...camera };
+  Object.assign(camera, { follow: null, target, distance });
 }
 
 // Charts are drawn for the panel's width; anew when it changes.
@@ -97,6 +117,8 @@ function leaveAlgorithm() {
   $("account").hidden = true;
   $("algorithm").setAttribute("aria-pressed", false);
   prepareMarks([]);
+  if (algorithm.camera) Object.assign(camera, algorithm.camera);
+  algorithm.camera = null;
   document.body.classList.toggle("split", isSplit());
   drawPanels();
   redraw();
@@ -128,9 +150,7 @@ function keepUpAlgorithm() {
 function lookCloser() {
   if (!algorithm.open || !marks.list.length) return;
   const { low, high } = marks, reach = motion.bodies.reduce((most, b) => b.moves ? Math.max(most, b.geometry.radius) : most, 1e-3);
-  camera.follow = null;
-  camera.target = low.map((v, i) => 0.5 * (v + high[i]));
-  camera.distance = Math.max(0.05 * reach, 2 * Math.hypot(...low.map((v, i) => high[i] - v)));
+  comeNear(low.map((v, i) => 0.5 * (v + high[i])), Math.max(0.05 * reach, 2 * Math.hypot(...low.map((v, i) => high[i] - v))));
   redraw();
 }
 

@@ -6,8 +6,19 @@ function svg(tag, attributes, ...children) {
   element.append(...children);
   return element;
 }
-// How wide a text is, nearly: in the page's 12 px letters.
-const roomFor = words => 6.4 * words.length;
+// How wide a text is in the charts' letters.
+const ruler = document.createElement("canvas").getContext("2d");
+function roomFor(words) {
+  ruler.font = "12px system-ui, sans-serif";
+  return Math.ceil(ruler.measureText(words).width) + 1;
+}
+// A text without its end, if it does not fit.
+function cut(words, space) {
+  if (roomFor(words) <= space) return words;
+  let count = words.length;
+  while (count > 1 && roomFor(words.slice(0, count) + "…") > space) --count;
+  return words.slice(0, count) + "…";
+}
 
 // Round numbers that part a range into some four pieces.
 function ticksOf(low, high, pieces = 4) {
@@ -39,6 +50,7 @@ function rangeOf(values, log) {
   let low = Math.min(...usable), high = Math.max(...usable);
   if (log) return [Math.floor(low), Math.max(Math.ceil(high), Math.floor(low) + 1)];
   if (low >= 0 && low < 0.4 * high) low = 0;
+  if (low === 0 && high === 0) return [0, 1];
   if (!(high > low)) { const half = Math.abs(low) || 1; return [low - 0.5 * half, low + 0.5 * half]; }
   const air = 0.06 * (high - low);
   return [low === 0 ? 0 : low - air, high + air];
@@ -104,25 +116,42 @@ function noteParts(notes, px, py, area) {
   return parts;
 }
 
-// Bars from zero, one below the other: name, bar, value and a word on it.
+// Numbers that differ little are told apart by their places, not by bars from zero, which would all look alike.
+const isCrowded = values => values.length > 1 && Math.min(...values) > 0 && Math.max(...values) - Math.min(...values) < 0.25 * Math.max(...values) && Math.max(...values) > Math.min(...values);
+// As short as it can be, but with the digits that tell the values apart.
+function barTexts(rows, span) {
+  return rows.map(({ value, note }) => {
+    if (!Number.isFinite(value)) return ["–", note || ""];
+    const digits = value && span ? Math.max(4, Math.min(12, 3 + Math.ceil(Math.log10(Math.abs(value) / span)))) : 4;
+    return [digits > 4 ? String(+value.toPrecision(digits)) : short(value), note || ""];
+  });
+}
+
+// Bars, one below the other: name, bar, value and a word on it. Names and words that do not fit beside their bar stand above it.
 function barsOf({ title, unit, rows }, width) {
-  const values = rows.map(r => r.value).filter(Number.isFinite), high = Math.max(0, ...values), low = Math.min(0, ...values), span = high - low || 1;
-  const told = rows.map(r => `${Number.isFinite(r.value) ? short(r.value) : "–"}${r.note ? `  ${r.note}` : ""}`), tall = 22, top = 26, bottom = top + tall * rows.length;
-  const names = Math.min(0.34 * width, 8 + Math.max(0, ...rows.map(r => roomFor(r.label)))), numbers = Math.min(0.36 * width, 8 + Math.max(0, ...told.map(roomFor)));
-  const from = names, until = width - numbers, px = v => from + (until - from) * (v - low) / span, height = bottom + 36;
-  const drawing = svg("svg", { width, height, viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": title });
-  const ticks = ticksOf(low, low + span), texts = tickTexts(ticks), cut = (words, space) => roomFor(words) <= space ? words : words.slice(0, Math.max(1, Math.floor(space / 6.4) - 1)) + "…";
-  drawing.append(svg("text", { x: 0, y: 14, class: "name" }, unit && unit !== "1" ? `${title} [${unit}]` : title));
+  const values = rows.map(r => r.value).filter(Number.isFinite), crowded = isCrowded(values), spread = Math.max(...values) - Math.min(...values);
+  const high = crowded ? Math.max(...values) + 0.05 * spread : Math.max(0, ...values), low = crowded ? Math.min(...values) - 0.05 * spread : Math.min(0, ...values), span = high - low || 1;
+  const told = barTexts(rows, crowded ? spread : 0).map(([value, note]) => note ? `${value}, ${note}` : value);
+  const names = 8 + Math.max(0, ...rows.map(r => roomFor(r.label))), numbers = 8 + Math.max(0, ...told.map(roomFor)), above = names + numbers > 0.6 * width;
+  const from = above ? 8 : names, until = above ? width - 12 : width - numbers, tall = above ? 36 : 22, top = 6, bottom = top + tall * rows.length, px = v => from + (until - from) * (v - low) / span;
+  const drawing = svg("svg", { width, height: bottom + 36, viewBox: `0 0 ${width} ${bottom + 36}`, role: "img", "aria-label": title });
+  const ticks = ticksOf(low, low + span), texts = tickTexts(ticks), stride = Math.ceil(1.3 * Math.max(...texts.map(roomFor)) * ticks.length / (until - from));
   ticks.forEach((v, k) => {
     drawing.append(svg("line", { x1: px(v), x2: px(v), y1: top, y2: bottom + 4, class: "grid" }));
-    if (k % Math.ceil(roomFor(texts[k]) * ticks.length / (until - from)) === 0) drawing.append(svg("text", { x: px(v), y: bottom + 18, class: "tick", "text-anchor": "middle" }, texts[k]));
+    if (k % stride === 0) drawing.append(svg("text", { x: px(v), y: bottom + 18, class: "tick", "text-anchor": "middle" }, texts[k]));
   });
   rows.forEach(({ label, value, role }, k) => {
-    const y = top + tall * k, full = svg("title", {}, `${label}: ${told[k]}`);
-    const row = svg("g", {}, full, svg("text", { x: 0, y: y + 15, class: "label" }, cut(label, names - 4)), svg("text", { x: until + 8, y: y + 15, class: "label" }, cut(told[k], numbers - 8)));
-    if (Number.isFinite(value)) row.append(svg("rect", { x: Math.min(px(0), px(value)), y: y + 4, width: Math.max(1, Math.abs(px(value) - px(0))), height: tall - 8, fill: roleColour(role), rx: 1.5 }));
+    const y = top + tall * k, full = svg("title", {}, `${label}: ${told[k]}`), own = cut(told[k], above ? 0.6 * width : numbers);
+    const row = svg("g", {}, full, svg("text", { x: 0, y: y + 15, class: "label" }, cut(label, above ? width - roomFor(own) - 14 : names)));
+    row.append(above ? svg("text", { x: width - 2, y: y + 15, class: "label", "text-anchor": "end" }, own) : svg("text", { x: until + 8, y: y + 15, class: "label" }, own));
+    if (Number.isFinite(value)) row.append(...barParts(px(crowded ? low : 0), px(value), above ? y + 20 : y + 4, above ? 11 : tall - 8, roleColour(role), crowded));
     drawing.append(row);
   });
-  drawing.append(svg("line", { x1: px(0), x2: px(0), y1: top, y2: bottom + 4, class: "axis" }));
-  return [drawing];
+  if (!crowded) drawing.append(svg("line", { x1: px(0), x2: px(0), y1: top, y2: bottom + 4, class: "axis" }));
+  return [make("div", { className: "chartName" }, unit && unit !== "1" && !title.includes(`[${unit}]`) ? `${title} [${unit}]` : title), drawing];
+}
+function barParts(zero, end, y, height, colour, crowded) {
+  if (!crowded) return [svg("rect", { x: Math.min(zero, end), y, width: Math.max(1, Math.abs(end - zero)), height, fill: colour, rx: 1.5 })];
+  const middle = y + height / 2;
+  return [svg("line", { x1: zero, x2: end, y1: middle, y2: middle, stroke: colour, "stroke-dasharray": "1 4" }), svg("circle", { cx: end, cy: middle, r: 5, fill: colour })];
 }

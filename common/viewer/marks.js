@@ -39,17 +39,23 @@ function prepareMarks(list) {
   marks.solids.forEach(s => forget(s.geometry));
   marks.list = list;
   marks.solids = [];
-  const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
   for (const mark of list) {
     if (mark.kind === "mesh") marks.solids.push(solidOf(mark.points, mark.triangles, mark.role, true));
     if (mark.kind === "plane") {
       mark.ring = circle(mark);
       marks.solids.push(solidOf([mark.at, ...mark.ring], mark.ring.map((_, k) => [0, 1 + k, 1 + (k + 1) % mark.ring.length]), mark.role, false));
     }
-    for (const point of mark.ring || pointsOf(mark))
-      point.forEach((v, i) => { low[i] = Math.min(low[i], v); high[i] = Math.max(high[i], v); });
   }
-  Object.assign(marks, { low, high });
+  Object.assign(marks, extentOf(list));
+}
+
+// The box of all that is drawn, m.
+function extentOf(list) {
+  const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+  for (const mark of list)
+    for (const point of mark.kind === "plane" ? circle(mark, 8) : pointsOf(mark))
+      for (let i = 0; i < 3; ++i) { low[i] = Math.min(low[i], point[i]); high[i] = Math.max(high[i], point[i]); }
+  return { low, high };
 }
 
 // One instance, whose axes are the world's.

@@ -43,7 +43,7 @@ function takeState(state) {
   twinChanged(before);
   addSample(samplesOf.scene, state, state.frame);
   if (state.twin) addSample(samplesOf.twin, state.twin, state.twin.frame);
-  showWarnings(state.warnings || []);
+  showWarnings([...(state.warnings || []), ...((state.twin && state.twin.warnings) || []).map(line => `its copy: ${line}`)]);
   if (first && state.frame === 0 && motion) redraw();
   offerSettings();
   drawPanels();
@@ -66,11 +66,13 @@ function addSample(samples, state, frame) {
   if (samples.list.length > mostSamples) samples.list.shift();
 }
 
+// The scene's last warnings; a click puts them away until there is another.
 function showWarnings(lines) {
   const box = $("warnings"), signature = JSON.stringify(lines);
   if (box.dataset.signature === signature) return;
   box.dataset.signature = signature;
   box.hidden = lines.length === 0;
+  box.onclick = () => { box.hidden = true; };
   box.replaceChildren(...lines.map(line => make("div", {}, line)));
 }
 

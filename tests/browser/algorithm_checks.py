@@ -22,6 +22,7 @@ def check_steps(test, page, picture, first_place) -> None:
         for point, colour in points:
             test.assertTrue(near(image, on_screen(point), colour), f"{point} is not drawn in {colour}")
 
+    page.js("Object.assign(camera, { target: [0.3, 0.8, 0.6], distance: 13, yaw: -0.9, pitch: 0.35 }); algorithm.camera = null; redraw()")  # all of it is in sight
     told = page.js("viewer.algorithm()")
     test.assertEqual((told["open"], told["steps"], told["at"]), (True, 4, 0))
     test.assertTrue(page.js("document.getElementById('stepText').textContent").startswith("Advance 1: the gap is at least 0.4 m"))
@@ -64,8 +65,8 @@ def check_steps(test, page, picture, first_place) -> None:
     test.assertEqual(len(bars), 4)
     test.assertAlmostEqual(bars[0][1] / bars[1][1], 1.25 / 0.4, places=2)
     test.assertAlmostEqual(bars[1][0] + bars[1][1], bars[0][0], places=2, msg="negative ones go to the left of zero")
-    words = page.js("[...document.querySelectorAll('#stepBars text')].map(e => e.textContent)")
-    for word in ("impulses after this pivot [N s]", "contact 1", "-0.4  must not pull"):
+    words = page.js("[...document.querySelectorAll('#stepBars text, #stepBars .chartName')].map(e => e.textContent)")
+    for word in ("impulses after this pivot [N s]", "contact 1", "-0.4, must not pull"):
         test.assertIn(word, words)
     test.assertIn("1e-8", page.js("[...document.querySelectorAll('#stepChart .tick')].map(e => e.textContent)"))
     # Nothing in the panel sticks out of it, or covers its neighbour.
@@ -76,9 +77,9 @@ def check_steps(test, page, picture, first_place) -> None:
     page.press("f")
     page.settle()
     test.assertNotEqual(page.js("camera.distance"), distance)
-    page.press("r")
     page.press("Escape")
     page.settle()
+    test.assertAlmostEqual(page.js("camera.distance"), 13, msg="as one looked before it came near")
     test.assertFalse(page.js("viewer.algorithm().open"))
     test.assertEqual(page.js("document.getElementById('account').offsetParent"), None)
     np.testing.assert_allclose(page.js("viewer.state().positions[0]"), first_place, atol=1e-5)
