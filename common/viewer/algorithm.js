@@ -43,6 +43,7 @@ function showDocuments(documents, chosen) {
   drop();
   now.playing = false;
   document.body.classList.add("algorithm");
+  showSplit();
   $("account").hidden = false;
   $("algorithm").setAttribute("aria-pressed", true);
   $("documents").replaceChildren(...usable.map((d, k) => new Option(`frame ${d.frame}`, k)));
@@ -119,7 +120,7 @@ function leaveAlgorithm() {
   prepareMarks([]);
   if (algorithm.camera) Object.assign(camera, algorithm.camera);
   algorithm.camera = null;
-  document.body.classList.toggle("split", isSplit());
+  showSplit();
   drawPanels();
   redraw();
 }

@@ -203,7 +203,7 @@ function drawNumbers() {
   rows.forEach(([name, value, unit, curve, title], i) => {
     const cells = table.rows[i].cells, head = name === "head", other = copy.get(name), [span, canvas] = cells[3].children;
     text(cells[0], head ? "" : name);
-    table.rows[i].className = head ? "both" : value === undefined && !other || name.includes("since") ? "title" : "";
+    table.rows[i].className = head ? "both" : value === undefined && !(other && other[1] !== undefined) ? "title" : "";
     text(cells[1], head ? "scene" : words(value));
     text(cells[2], typeof value === "number" || (other && typeof other[1] === "number") ? unit : "");
     table.rows[i].title = title || "";

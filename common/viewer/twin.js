@@ -11,6 +11,7 @@ const isSplit = () => isLive && !algorithm.open && twin.newest !== null && twinS
 function takeTwinFrame(bytes, length) {
   const head = new DataView(bytes.buffer, 8, 12);
   keepFrame(twin, bytes, 20, length);
+  if (twin.received === 1) showSplit();
   noteDistance(live.newest ? live.newest.t : twin.newest.t, head.getFloat64(0, true), head.getInt32(8, true));
   redraw();
 }
@@ -41,12 +42,14 @@ function forgetTwin() {
   apart.count = 0; apart.farthest = -1;
 }
 
+const showSplit = () => document.body.classList.toggle("split", isSplit());
+
 // The state has come, after another.
 function twinChanged(before) {
   const state = twinState(), was = before && before.twin;
   if (state && !was) { samplesOf.twin.list.length = 0; books.twin.start = null; }
   if (was && !state) { forgetTwin(); setFor("scene"); }
-  document.body.classList.toggle("split", isSplit());
+  showSplit();
   $("twin").setAttribute("aria-pressed", state !== null);
   $("twinPart").hidden = $("forWhich").hidden = !state;
   if (!state) return;

@@ -246,6 +246,52 @@ class EngineTest(unittest.TestCase):
         np.testing.assert_array_equal(places, run[-1, :, :3])
         self.assertGreater(np.abs(run[-1, :, :3] - run[0, :, :3]).max(), 0.1, "nothing moved")
 
+    def sliding(self) -> Program:
+        """The box slides on the floor, from 2.5 m/s on."""
+        return self.open(self.written("sliding.yaml", CORNER.replace("0.4005]", "0.4005], velocity: [2.5, 0, 0]")))
+
+    def test_two_copies(self):
+        self.sliding()
+        self.page.press("t")
+        self.wait("viewer.twin().split")
+        self.frames(10)
+        self.assertEqual(self.page.js("[...apart.distance.subarray(0, apart.count)].filter(d => d !== 0)"), [], "the same, to the last digit")
+        # With half the friction the copy slides twice as far.
+        self.page.js("(e => { document.getElementById('forTwin').click(); e.value = '0.25'; e.onchange(); })(document.getElementById('knob_friction'))")
+        self.wait("viewer.live().state.twin.knobs.find(k => k.key === 'friction').value === '0.25'")
+        self.assertEqual(self.page.js("viewer.live().state.knobs.find(k => k.key === 'friction').value"), "0.5")
+        self.page.press("0")
+        self.wait("viewer.live().t < 1 && viewer.twin().t < 1")
+        self.frames(90)
+        self.assertEqual(self.page.js("viewer.twin().farthest"), 2)
+        self.assertAlmostEqual(self.page.js("viewer.twin().distance"), 2.5 ** 2 / (2 * 9.81) * (1 / 0.25 - 1 / 0.5), delta=0.01)
+        self.page.press("t")
+        self.wait("!viewer.twin().on && !viewer.twin().split")
+        self.assertEqual(self.page.complaints, [])
+
+    def test_the_algorithm(self):
+        self.sliding()
+        self.frames(5)
+        before = self.page.js("[viewer.live().frame, viewer.state().positions[2]]")
+        self.page.press("a")
+        self.wait("viewer.algorithm().open")
+        told = self.page.js("algorithm.documents[0]")
+        self.assertEqual(told["frame"], before[0] + 1)
+        self.assertAlmostEqual(told["t1"] - told["t0"], 1 / 60)
+        chapters = {part["chapter"] for part in told["parts"]}
+        self.assertTrue({3, 6} <= chapters, chapters)
+        texts = set()
+        for _ in range(self.page.js("viewer.algorithm().steps")):
+            texts.add(self.page.js("document.getElementById('stepText').textContent"))
+            self.page.js("drawScene(); drawOverlay()")
+            self.page.press("]")
+        self.assertGreater(len(texts), 4)
+        self.assertEqual(self.page.js("viewer.live().frame"), before[0], "the scene did not move")
+        self.page.press("Escape")
+        self.page.settle()
+        self.assertEqual(self.page.js("viewer.state().positions[2]"), before[1])
+        self.assertEqual(self.page.complaints, [])
+
     def measured(self, scene: Path, bodies: int):
         """Frames and pictures a second, of a scene that runs. The machine has other work: the best of three."""
         best = None
