@@ -95,7 +95,7 @@ function lookAtPart({ steps }) {
   if (size > 0.35 * camera.distance && away > 0 && aside < 0.3 * away) return;
   const shown = new Set(steps.flatMap(s => (s.poses || []).map(p => p[0])));
   const reach = [...shown].reduce((most, i) => motion.bodies[i] && motion.bodies[i].moves ? Math.max(most, motion.bodies[i].geometry.radius) : most, 0);
-  comeNear(middle, Math.max(2.2 * size, 3.2 * reach, 1e-3));
+  comeNear(middle, Math.max(2.2 * size, 5 * reach, 1e-3));
 }
 function comeNear(target, distance) {
   algorithm.camera = algorithm.camera || { ...camera };

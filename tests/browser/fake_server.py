@@ -126,7 +126,7 @@ class Scene:
     def state(self, running):
         t = self.frame * self.dt
         busy = 1 + 0.25 * math.sin(3 * t) + (1.6 if self.values["ccd.tolerance"] == "1e-9" else 0)
-        stages = {"broad_ms": 0.4, "ccd_ms": 3.1 * busy, "contacts_ms": 0.7, "lcp_ms": 1.9 * busy, "corrections_ms": 0.3}
+        stages = {"broad_ms": 0.4, "ccd_ms": 3.1 * busy, "contacts_ms": 0.7, "lcp_ms": 1.9 * busy, "corrections_ms": 0.3, "other_ms": 0.2}
         effect = {"on": True, "ms": 0.12, "can_switch": True, "set": {"key": "gravity", "on": "[0, 0, -9.81]"}, "why": "declared at line 4", "adds": "an acceleration of every body"}
         off = {"on": False, "ms": 0, "can_switch": False, "set": {"key": "", "on": ""}, "why": "not asked for by this scene", "adds": "cones of friction in the solver"}
         knob = {"unit": "1", "low": 0, "high": 0, "choices": [], "restarts": False}

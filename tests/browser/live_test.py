@@ -281,6 +281,7 @@ class LiveTest(unittest.TestCase):
         self.assertTrue(numbers["energy"].endswith(" J") and numbers["impacts"].startswith("-"))
         self.assertLess(abs(float(numbers["not accounted for"].split()[0])), 1e-9)
         self.assertEqual(self.page.js("[...document.querySelectorAll('#legend span span')].map(e => e.textContent)"), ["broad", "CCD", "contacts", "LCP", "corrections", "other"])
+        self.assertEqual(self.page.js("getComputedStyle(document.querySelector('#legend > span:last-child i')).backgroundColor"), "rgb(170, 177, 192)", "neutral")
         cost = float(self.shown("costNow").split()[0])
         self.assertTrue(4 < cost < 9, cost)
         # The strip is as high as its samples say, in the stages' colours.
