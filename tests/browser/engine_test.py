@@ -311,7 +311,7 @@ class EngineTest(unittest.TestCase):
                 best = found
             if best["step"] < 1000 / 30 and best["own"] < 1000 / 60:
                 break
-        print(f"{scene.stem}: {best['frames']:.0f} frames simulated a second ({best['step']:.2g} ms each, median; {best['slowest']:.2g} ms the slowest of some), {best['pictures']:.0f} pictures drawn a second "
+        print(f"{scene.stem}: {best['frames']:.0f} frames simulated a second ({best['step']:.3g} ms each, median; {best['slowest']:.3g} ms the slowest of some), {best['pictures']:.0f} pictures drawn a second "
               f"by software (there is no graphics card), {best['own']:.2f} ms of the page's own work a picture", flush=True)
         self.assertLess(best["step"], 1000 / 30)
         self.assertLess(best["own"], 1000 / 60)
