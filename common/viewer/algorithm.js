@@ -2,7 +2,7 @@
 // A document tells what happened in a frame, in parts, one or more for a chapter, and these in steps. A running scene is asked for
 // that of its next frame; a recording has those that its run was asked for. common/live/STREAM.md says what is in it.
 
-const algorithm = { open: false, asking: false, documents: [], chosen: 0, steps: [], at: 0, part: -1, camera: null };
+const algorithm = { open: false, asking: false, documents: [], chosen: 0, steps: [], at: 0, camera: null };
 // steps: of all parts, one after another; camera: how one looked before it came near by itself
 
 const documentNow = () => algorithm.documents[algorithm.chosen];
@@ -53,7 +53,6 @@ function showDocuments(documents, chosen) {
 
 function chooseDocument(index) {
   algorithm.chosen = index;
-  algorithm.part = -1;
   const { frame, t0, t1, parts } = documentNow();
   algorithm.steps = parts.flatMap((part, k) => part.steps.map((step, i) => ({ part: k, index: i, step })));
   if (!isLive) now.time = Math.min(motion.duration, t0);
@@ -81,21 +80,23 @@ function toStep(index) {
   prepareMarks(step.draw || []);
   drawCharts();
   $("stepLook").disabled = !marks.list.length;
-  if (part !== algorithm.part) lookAtPart(parts[part]);
-  algorithm.part = part;
+  lookAtStep(step);
   redraw();
 }
 
-// The eye comes near by itself where all that a part draws would be small, or out of sight.
-function lookAtPart({ steps }) {
-  const { low, high } = extentOf(steps.flatMap(s => s.draw || []));
+// The eye comes near by itself where what a step draws would be small, and goes where it is out of sight.
+function lookAtStep({ poses }) {
+  const { low, high } = marks;
   if (!(high[0] >= low[0])) return;
   const middle = low.map((v, i) => 0.5 * (v + high[i])), size = Math.hypot(...low.map((v, i) => high[i] - v)), eye = eyeOf(), back = cameraAxes()[2];
   const away = dot3(back, eye.map((v, i) => v - middle[i])), aside = Math.hypot(...middle.map((v, i) => eye[i] - away * back[i] - v));
-  if (size > 0.35 * camera.distance && away > 0 && aside < 0.3 * away) return;
-  const shown = new Set(steps.flatMap(s => (s.poses || []).map(p => p[0])));
-  const reach = [...shown].reduce((most, i) => motion.bodies[i] && motion.bodies[i].moves ? Math.max(most, motion.bodies[i].geometry.radius) : most, 0);
-  comeNear(middle, Math.max(2.2 * size, 5 * reach, 1e-3));
+  const wanted = Math.max(4 * size, 5 * reachOf((poses || []).map(p => motion.bodies[p[0]]).filter(b => b)));
+  if (camera.distance > 3 * wanted || size > 0.8 * camera.distance || away <= 0 || aside > 0.32 * away) comeNear(middle, wanted);
+}
+// The largest of bodies that move; of all there are if none of these do. m
+function reachOf(bodies) {
+  const some = bodies.some(b => b.moves) ? bodies : motion.bodies;
+  return some.reduce((most, b) => b.moves ? Math.max(most, b.geometry.radius) : most, 1e-3);
 }
 function comeNear(target, distance) {
   algorithm.camera = algorithm.camera || { ...camera };
@@ -150,8 +151,8 @@ function keepUpAlgorithm() {
 // Brings what a step draws near, and the eye to it.
 function lookCloser() {
   if (!algorithm.open || !marks.list.length) return;
-  const { low, high } = marks, reach = motion.bodies.reduce((most, b) => b.moves ? Math.max(most, b.geometry.radius) : most, 1e-3);
-  comeNear(low.map((v, i) => 0.5 * (v + high[i])), Math.max(0.05 * reach, 2 * Math.hypot(...low.map((v, i) => high[i] - v))));
+  const { low, high } = marks;
+  comeNear(low.map((v, i) => 0.5 * (v + high[i])), Math.max(0.05 * reachOf([]), 2 * Math.hypot(...low.map((v, i) => high[i] - v))));
   redraw();
 }
 

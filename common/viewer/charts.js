@@ -133,7 +133,7 @@ function barsOf({ title, unit, rows }, width) {
   const high = crowded ? Math.max(...values) + 0.05 * spread : Math.max(0, ...values), low = crowded ? Math.min(...values) - 0.05 * spread : Math.min(0, ...values), span = high - low || 1;
   const told = barTexts(rows, crowded ? spread : 0).map(([value, note]) => note ? `${value}, ${note}` : value);
   const names = 8 + Math.max(0, ...rows.map(r => roomFor(r.label))), numbers = 8 + Math.max(0, ...told.map(roomFor)), above = names + numbers > 0.6 * width;
-  const from = above ? 8 : names, until = above ? width - 12 : width - numbers, tall = above ? 36 : 22, top = 6, bottom = top + tall * rows.length, px = v => from + (until - from) * (v - low) / span;
+  const from = above ? 16 : names, until = above ? width - 16 : width - numbers, tall = above ? 36 : 22, top = 6, bottom = top + tall * rows.length, px = v => from + (until - from) * (v - low) / span;
   const drawing = svg("svg", { width, height: bottom + 36, viewBox: `0 0 ${width} ${bottom + 36}`, role: "img", "aria-label": title });
   const ticks = ticksOf(low, low + span), texts = tickTexts(ticks), stride = Math.ceil(1.3 * Math.max(...texts.map(roomFor)) * ticks.length / (until - from));
   ticks.forEach((v, k) => {

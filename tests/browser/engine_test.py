@@ -277,7 +277,7 @@ class EngineTest(unittest.TestCase):
         self.wait("viewer.algorithm().open")
         told = self.page.js("algorithm.documents[0]")
         self.assertEqual(told["frame"], before[0] + 1)
-        self.assertAlmostEqual(told["t1"] - told["t0"], 1 / 60)
+        self.assertAlmostEqual(told["t1"] - told["t0"], 1 / 60, delta=2e-6)
         chapters = {part["chapter"] for part in told["parts"]}
         self.assertTrue({3, 6} <= chapters, chapters)
         texts = set()
