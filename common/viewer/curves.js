@@ -41,6 +41,7 @@ function drawStrips() {
     pen.fillStyle = soft; pen.textAlign = "right"; pen.textBaseline = "middle";
     pen.fillText(short(high), margin.left - 6, top + 2);
     if (y(low) - top > 14) pen.fillText(short(low), margin.left - 6, bottom - 2);
+    let written = margin.left;  // names and values beside each other, as far as they go
     curves.forEach((curve, k) => {
       const bars = isOfFrame(curve), colour = curveColours[(g + k) % curveColours.length];
       pen.strokeStyle = pen.fillStyle = colour; pen.lineWidth = 1.5;
@@ -51,13 +52,14 @@ function drawStrips() {
         else pen.lineTo(x(motion.frameTimes[i]), y(v));
       });
       pen.stroke();
-      const value = valueNow(curve);
+      const words = `${curve.name}: ${short(valueNow(curve))} ${curve.unit}`;
       pen.textAlign = "left"; pen.textBaseline = "bottom";
-      pen.fillText(`${curve.name}: ${short(value)} ${curve.unit}`, margin.left + Math.min(190, 0.3 * w) * k, top - 3);
+      pen.fillText(words, written, top - 3, Math.max(40, w - margin.right - written));
+      written += Math.max(pen.measureText(words).width + 14, w > 700 ? 190 : 0);
     });
     const remark = curves.map(c => c.remark).find(text => text);
     pen.fillStyle = soft; pen.textAlign = "right";
-    if (remark && w > 900) pen.fillText(remark, w - margin.right, top - 3);
+    if (remark && written + pen.measureText(remark).width < w - margin.right) pen.fillText(remark, w - margin.right, top - 3);
   });
   pen.strokeStyle = mark; pen.lineWidth = 1.5;
   for (const t of motion.impacts) { pen.beginPath(); pen.moveTo(x(t), h - margin.bottom); pen.lineTo(x(t), h - margin.bottom + 6); pen.stroke(); }

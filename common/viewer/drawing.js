@@ -244,17 +244,21 @@ function drawMarks(geometry, count) {
   drawFaces(geometry, count);
 }
 
-// The camera and the light, for a picture that begins.
-function beginPicture(eye) {
-  const canvas = $("scene"), [ground0, ground1, ground2] = colours.clear;
-  fit(canvas);
-  gl.viewport(0, 0, canvas.width, canvas.height);
+function clearPicture() {
+  const [ground0, ground1, ground2] = colours.clear;
+  fit($("scene"));
   gl.clearColor(ground0, ground1, ground2, 1);
   gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+}
+
+// The camera and the light, for a picture that begins `from` pixels from the left.
+function beginPicture(eye, from, width) {
+  const { height } = $("scene");
+  gl.viewport(from, 0, width, height);
   const [right, up, back] = cameraAxes();
   const light = back.map((v, i) => 0.55 * v + 0.35 * up[i] - 0.45 * right[i] + (i === 2 ? 0.45 : 0));
   const size = Math.hypot(...light);
-  gl.uniformMatrix4fv(uniforms.view, false, viewMatrix(canvas.width / canvas.height));
+  gl.uniformMatrix4fv(uniforms.view, false, viewMatrix(width / height));
   gl.uniform3fv(uniforms.eye, eye);
   gl.uniform3fv(uniforms.light, light.map(v => v / size));
   gl.enable(gl.DEPTH_TEST);
@@ -265,7 +269,7 @@ function drawBodies(hulls) {
   // First what is opaque; what hides the rest is drawn last, so that all else shines through.
   for (const veiled of [false, true])
     for (const geometry of motion.geometries) {
-      const count = place(geometry, geometry.bodies, veiled), clear = now.xray || hulls.length > 0 || veiled;
+      const count = place(geometry, geometry.bodies, veiled), clear = now.xray || hulls.length > 0 || algorithm.open || veiled;
       if (!count) continue;
       if (now.wire) {
         look(1, geometry.normals ? 0.7 : 1);
@@ -289,21 +293,37 @@ function drawBodies(hulls) {
   }
 }
 
-// One picture, of the poses that the bodies have.
+// One picture; of two copies one in each half, from the same eye.
 function drawScene() {
-  if (isLive) poseLive();
+  if (isLive) poseLive(live);
   else {
     for (const item of motion.bodies) pose(item, now.time);
     for (const item of motion.contacts) pose(item, now.time);
   }
+  if (algorithm.open) poseStep();
   if (camera.follow) camera.target = [...camera.follow.position];
-  const eye = eyeOf();
-  beginPicture(eye);
+  clearPicture();
+  const eye = eyeOf(), { width } = $("scene");
+  if (isSplit()) {
+    const half = width >> 1;
+    poseLive(twin);
+    drawSide(twin, eye, half, width - half);
+    poseLive(live);  // last: what is asked later is of the scene
+    drawSide(live, eye, 0, half);
+  } else {
+    drawSide(live, eye, 0, width);
+  }
+}
+
+// A picture of the poses that the bodies have.
+function drawSide(side, eye, from, width) {
+  beginPicture(eye, from, width);
   for (const item of motion.bodies) item.veiled = hides(item, eye);
   drawBodies(now.level < 0 ? [] : motion.levels.filter(l => l.level === now.level));
-  if (isLive) drawHand();
+  if (algorithm.open) return drawStep();
+  if (isLive) drawHand(side);
   if (!now.arrows) return;
-  if (isLive) drawLiveContacts();
+  if (isLive) drawLiveContacts(side);
   for (const geometry of motion.geometries) drawMarks(geometry, place(geometry, geometry.arrows, false));
 }
 

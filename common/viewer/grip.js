@@ -1,8 +1,9 @@
 // Taking hold of a body in a running scene ------------------------------------------------------------------------------
 
 const pointer = { x: null, y: null, moved: false };
-// The grabbed body, the point of it (in its axes), how far in front of the eye's plane it is pulled to, and where on the page.
-const grip = { body: -1, held: false, local: new Float64Array(3), depth: 1, target: null, told: false };
+// The grabbed body, whether it was taken in the copy's picture, the point of it (in its axes), how far in front of the eye's plane
+// it is pulled to, and where on the page.
+const grip = { body: -1, held: false, copy: false, local: new Float64Array(3), depth: 1, target: null, told: false };
 let hovered = -1;
 
 // Shows which body a press would take.
@@ -23,13 +24,13 @@ function hover() {
 
 function grabAt(x, y) {
   const seen = pick(x, y);
-  if (seen && motion.bodies[seen.body].moves) grab(seen.body, seen.local, seen.depth);
+  if (seen && motion.bodies[seen.body].moves) grab(seen.body, seen.local, seen.depth, copyAt(x));
 }
 
 // Takes hold of a body at a point of its own axes. The body is drawn a little late: the server is told where the point is in the
 // newest frame.
-async function grab(body, local, depth) {
-  Object.assign(grip, { body, held: false, depth, target: null, told: false });
+async function grab(body, local, depth, copy = false) {
+  Object.assign(grip, { body, held: false, copy, depth, target: null, told: false });
   grip.local.set(local);
   hoverOver(body);
   const frame = live.newest;
@@ -48,7 +49,7 @@ const poseOf = item => [...item.position, ...item.turn];
 function dragOn() {
   if (grip.body < 0) return;
   if (pointer.x !== null) {
-    const eye = eyeOf(), way = wayThrough(pointer.x, pointer.y), to = eye.map((v, i) => v + grip.depth * way[i]);
+    const eye = eyeOf(), way = wayThrough(pointer.x, pointer.y, grip.copy), to = eye.map((v, i) => v + grip.depth * way[i]);
     if (!grip.target || to.some((v, i) => v !== grip.target[i])) Object.assign(grip, { target: to, told: false });
   }
   if (grip.held && grip.target && !grip.told) drag(grip.target);
@@ -73,20 +74,20 @@ function drop() {
   return order({ do: "drop" });
 }
 
-// The line to draw: of the own hand at once, of another page's from the stream.
-function handLine() {
+// The line to draw in a side's picture: of the own hand at once, of another page's from the stream.
+function handLine(side) {
   if (grip.body >= 0 && grip.body < motion.bodies.length) {
     const from = placed(grip.local, poseOf(motion.bodies[grip.body]), 0);
     return { from, to: grip.target || from };
   }
-  const frame = live.newest && around.to;
-  if (!frame || frame.grabbed < 0 || frame !== live.newest) return null;
+  const frame = side.newest && side.around.to;
+  if (!frame || frame.grabbed < 0 || frame !== side.newest) return null;
   return { from: [...frame.hand.subarray(0, 3)], to: [...frame.hand.subarray(3, 6)] };
 }
 
 // A ball from the eye, through a point of the page or straight ahead.
 function throwBall(x, y) {
-  const box = $("scene").getBoundingClientRect(), inside = x !== null && x !== undefined;
+  const box = pictureBox(false), inside = x !== null && x !== undefined;
   const way = wayThrough(inside ? x : box.left + box.width / 2, inside ? y : box.top + box.height / 2), size = Math.hypot(...way);
   return order({ do: "throw", from: eyeOf(), velocity: way.map(v => v / size * throwSpeed()) });
 }

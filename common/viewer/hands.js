@@ -11,15 +11,17 @@ function listen() {
   const reset = () => { frameView(); redraw(); };
   const play_ = () => isLive ? order({ do: now.playing ? "pause" : "run" }) : play(!now.playing);
   const ahead = () => isLive ? order({ do: "step" }) : stepFrames(1);
+  const escape = () => algorithm.open ? leaveAlgorithm() : isLive && drop();
+  const stepTo = by => { if (algorithm.open) toStep(algorithm.at + by); };
   const again = () => order({ do: "reset" }), panels = () => showPanels($("panels").hidden);
-  const buttons = { ahead, play: play_, wire: () => toggle("wire"), xray: () => toggle("xray"), arrows: () => toggle("arrows"), reset, what: help };
+  const buttons = { ahead, play: play_, wire: () => toggle("wire"), xray: () => toggle("xray"), arrows: () => toggle("arrows"), reset, what: help, algorithm: openAlgorithm };
   const keys = {
     " ": play_, ArrowRight: ahead, ",": () => changeSpeed(-1), ".": () => changeSpeed(1), w: buttons.wire, x: buttons.xray, c: buttons.arrows,
-    h: () => changeLevel(1), H: () => changeLevel(-1), r: reset, "?": help,
+    h: () => changeLevel(1), H: () => changeLevel(-1), r: reset, "?": help, a: openAlgorithm, "]": () => stepTo(1), "[": () => stepTo(-1), PageDown: () => stepTo(1), PageUp: () => stepTo(-1), f: lookCloser, Escape: escape,
   };
   if (isLive) {
-    Object.assign(buttons, { again, throw: () => throwBall(), save, stop: stopTwice, more: panels });
-    Object.assign(keys, { b: () => throwBall(pointer.x, pointer.y), 0: again, s: save, p: panels, Escape: drop });
+    Object.assign(buttons, { again, throw: () => throwBall(), save, stop: stopTwice, more: panels, twin: switchTwin, forScene: () => setFor("scene"), forTwin: () => setFor("twin") });
+    Object.assign(keys, { b: () => throwBall(pointer.x, pointer.y), 0: again, s: save, p: panels, t: switchTwin });
   } else {
     Object.assign(buttons, { previous: () => toImpact(-1), next: () => toImpact(1), back: () => stepFrames(-1) });
     Object.assign(keys, { ArrowLeft: () => stepFrames(-1), ArrowDown: () => toImpact(1), n: () => toImpact(1), ArrowUp: () => toImpact(-1), p: () => toImpact(-1) });
@@ -29,16 +31,18 @@ function listen() {
   $("level").onchange = e => { now.level = +e.target.value; redraw(); };
   addEventListener("keydown", e => {
     const tag = e.target.tagName;
-    if (e.ctrlKey || e.metaKey || e.altKey || tag === "SELECT" || tag === "INPUT") return;
+    const typed = e.getModifierState("AltGraph");  // where ] and [ are typed with it
+    if ((!typed && (e.ctrlKey || e.altKey)) || e.metaKey || tag === "SELECT" || tag === "INPUT") return;
     const action = keys[e.key] || keys[e.key.toLowerCase()];
     if (!action || (e.key === " " && (tag === "BUTTON" || tag === "SUMMARY"))) return;
     e.preventDefault();
     action();
   });
   listenToScene();
+  listenToAlgorithm();
   if (!isLive) listenToStrips();
   addEventListener("resize", redraw);
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => { readColours(); redraw(); });
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => { readColours(); drawCharts(); redraw(); });
 }
 
 // The pointer on the scene: it takes a body in a running scene, or turns, moves and nears the view.
@@ -49,7 +53,7 @@ function listenToScene() {
     scene.setPointerCapture(e.pointerId);
     touches.set(e.pointerId, [e.clientX, e.clientY]);
     Object.assign(pointer, { x: e.clientX, y: e.clientY });
-    if (isLive && touches.size === 1 && e.button === 0 && !e.shiftKey) grabAt(e.clientX, e.clientY);
+    if (isLive && !algorithm.open && touches.size === 1 && e.button === 0 && !e.shiftKey) grabAt(e.clientX, e.clientY);
     else if (touches.size > 1) drop();
   };
   scene.onpointerup = scene.onpointercancel = e => { touches.delete(e.pointerId); drop(); };
@@ -87,11 +91,14 @@ function listenToScene() {
     redraw();
   }, { passive: false });
   scene.ondblclick = e => {  // the body whose middle is drawn nearest
+    const copy = copyAt(e.clientX);
     let best = 80;
+    if (copy) poseLive(twin);
     for (const body of motion.bodies) {
-      const seen = onScreen(body.position), away = Math.hypot(seen.x - e.clientX, seen.y - e.clientY);
+      const seen = onScreen(body.position, copy), away = Math.hypot(seen.x - e.clientX, seen.y - e.clientY);
       if (seen.before && away < best) { best = away; camera.follow = body; }
     }
+    if (copy) poseLive(live);
     redraw();
   };
 }

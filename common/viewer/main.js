@@ -18,14 +18,19 @@ window.viewer = {
   live: () => ({ connected: live.connected, ended: live.ended, running: now.playing, pictures: live.pictures, pictureMs: live.pictureMs, shown: live.shown,
                  geometry: live.geometry, bodies: motion.bodies.length, frame: live.newest ? live.newest.frame : -1, t: live.newest ? live.newest.t : null,
                  grabbed: grip.held ? grip.body : -1, hovered, state: live.state }),
+  twin: () => ({ on: twinState() !== null, split: isSplit(), frame: twin.newest ? twin.newest.frame : -1, t: twin.newest ? twin.newest.t : null, count: apart.count,
+                 distance: apart.count ? apart.distance[apart.count - 1] : null, farthest: apart.farthest }),
+  algorithm: () => ({ open: algorithm.open, documents: algorithm.documents.length, chosen: algorithm.chosen, at: algorithm.at, steps: algorithm.steps.length,
+                      text: algorithm.open ? stepNow().text : "", positions: motion.bodies.slice(0, 4).map(b => [...b.position]) }),
+  openAlgorithm, switchTwin,
   grab: (body, local = [0, 0, 0]) => { pointer.x = null; return grab(body, local, dot3(cameraAxes()[2], eyeOf().map((v, i) => v - motion.bodies[body].position[i]))); },
   drag, drop, throw: throwBall, command,
-  onScreen: body => onScreen(motion.bodies[body].position),
+  onScreen: (body, copy = false) => { if (copy) poseLive(twin); const seen = onScreen(motion.bodies[body].position, copy); if (copy) poseLive(live); return seen; },
 };
 
 function offerLevels() {
   const levels = [...new Set(motion.levels.map(l => l.level))].sort((a, b) => a - b);
-  $("levels").hidden = levels.length === 0;
+  $("levels").hidden = $("levelKeys").hidden = levels.length === 0;
   $("level").replaceChildren(new Option("off", -1), ...levels.map(level => new Option("level " + level, level)));
 }
 
@@ -35,6 +40,7 @@ function begin() {
   now.xray = parameters.has("xray");
   now.level = +(parameters.get("level") ?? -1);
   offerLevels();
+  $("algorithm").hidden = $("algorithmKeys").hidden = !isLive && motion.algorithm.length === 0;
   frameView();
   listen();
 }

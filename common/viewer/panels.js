@@ -1,4 +1,4 @@
-// Panels of a running scene: what a frame costs, its numbers, knobs, effects -------------------------------------------------
+// Panels of a running scene: what a frame costs, and its numbers ---------------------------------------------------------------
 
 function showPanels(on) {
   $("panels").hidden = !on;
@@ -28,63 +28,79 @@ function banner(line, button = "", action = null) {
 
 // The state, ten times a second -----
 
-const samples = { list: [], most: 120, stages: [] };  // the last 12 s; the names of stages in the order they came
+// The last 12 s of the scene and of its copy; the names of stages in the order they came.
+const samplesOf = { scene: { list: [], mark: "" }, twin: { list: [], mark: "" } };
+const stages = [], mostSamples = 120;
 
 function takeState(state) {
-  const first = !live.state, failedBefore = live.state && live.state.failed;
-  if (!first && (state.frame < live.state.frame || state.geometry !== live.state.geometry)) balance.start = null;
+  const before = live.state, first = !before;
+  if (!first && (state.frame < before.frame || state.geometry !== before.geometry)) books.scene.start = books.twin.start = null;
   live.state = state;
   if (state.title && (!motion || !motion.extras.title)) document.title = state.title;
   if (typeof state.speed === "number") now.speed = speeds.reduce((best, s) => Math.abs(s - state.speed) < Math.abs(best - state.speed) ? s : best);
   if (state.failed) banner(`The scene has failed: ${state.failed}`, "reset the scene", () => order({ do: "reset" }));
-  else if (failedBefore) banner("");
-  addSample(state);
+  else if (before && before.failed) banner("");
+  twinChanged(before);
+  addSample(samplesOf.scene, state, state.frame);
+  if (state.twin) addSample(samplesOf.twin, state.twin, state.twin.frame);
+  showWarnings([...(state.warnings || []), ...((state.twin && state.twin.warnings) || []).map(line => `its copy: ${line}`)]);
   if (first && state.frame === 0 && motion) redraw();
-  offerKnobs(state.knobs || []);
-  offerEffects(Object.entries(state.effects || {}));
+  offerSettings();
   drawPanels();
   redraw();
 }
 
-function addSample(state) {
+function addSample(samples, state, frame) {
   const last = samples.list[samples.list.length - 1];
-  if (last && last.frame === state.frame) return;
+  if (last && last.frame === frame) return;
   const parts = [];
   let rest = state.step_ms || 0;
   for (const [name, ms] of Object.entries(state.stages || {})) {
-    let index = samples.stages.indexOf(name);
-    if (index < 0) index = samples.stages.push(name) - 1;
+    let index = stages.indexOf(name);
+    if (index < 0) index = stages.push(name) - 1;
     parts[index] = ms || 0;
     rest -= ms || 0;
   }
-  samples.list.push({ frame: state.frame, ms: state.step_ms || 0, parts, rest: Math.max(0, rest), gap: state.min_gap, energy: state.energy, residual: state.residual, mark: pendingMark });
-  pendingMark = "";
-  if (samples.list.length > samples.most) samples.list.shift();
+  samples.list.push({ frame, ms: state.step_ms || 0, parts, rest: Math.max(0, rest), gap: state.min_gap, energy: state.energy, residual: state.residual, mark: samples.mark });
+  samples.mark = "";  // a setting that was changed, written into the strip
+  if (samples.list.length > mostSamples) samples.list.shift();
 }
-let pendingMark = "";  // a setting that was changed, to be written into the strip
+
+// The scene's last warnings; a click puts them away until there is another.
+function showWarnings(lines) {
+  const box = $("warnings"), signature = JSON.stringify(lines);
+  if (box.dataset.signature === signature) return;
+  box.dataset.signature = signature;
+  box.hidden = lines.length === 0;
+  box.onclick = () => { box.hidden = true; };
+  box.replaceChildren(...lines.map(line => make("div", {}, line)));
+}
 
 function drawPanels() {
-  if ($("panels").hidden || !live.state) return;
+  if ($("panels").hidden || algorithm.open || !live.state) return;
   drawCost();
   drawNumbers();
+  if (twinState()) drawApart();
 }
 
 // Cost -----
 
 const stageColours = ["#2f7fd0", "#e08a00", "#1f9a6a", "#8c57b8", "#c9485b", "#5aa9c9", "#a08a3c", "#7d8597"];
-const restColour = "#aab1c0";
+const otherColour = "#aab1c0";
+const colourOf = index => stages[index] === "other_ms" ? otherColour : stageColours[index % stageColours.length];
 const stageName = name => name.replace(/_ms$/, "").replace(/_/g, " ").replace(/\b(ccd|lcp)\b/g, s => s.toUpperCase());
 const scales = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 40, 100, 200, 500, 1000, 2000, 5000, 10000, 100000];
 const lines = [[1000 / 60, "1/60 s"], [1000 / 30, "1/30 s"]];
 
-function drawCost() {
-  const canvas = $("costs"), ratio = fit(canvas), pen = canvas.getContext("2d"), w = canvas.clientWidth, h = canvas.clientHeight;
-  const { list, most } = samples, left = 44, bottom = h - 2, top = 14;
-  const high = list.reduce((m, s) => Math.max(m, s.ms), 0), scale = scales.find(s => s >= 1.1 * high) || high, y = ms => bottom - (bottom - top) * ms / scale;
+// A bar for each frame, as high as it took, in the stages' colours. Two copies have one scale.
+function drawBars(canvas, { list }, scale) {
+  const ratio = fit(canvas), pen = canvas.getContext("2d"), w = canvas.clientWidth, h = canvas.clientHeight;
+  const left = 44, bottom = h - 2, top = 14, bar = (w - left) / mostSamples, y = ms => bottom - (bottom - top) * ms / scale;
   pen.setTransform(ratio, 0, 0, ratio, 0, 0);
   pen.clearRect(0, 0, w, h);
   pen.font = "11px system-ui, sans-serif";
-  const bar = (w - left) / most;
+  let written = Infinity;  // the newest mark's left end: older ones stop before it
+  const marks = [];
   list.forEach((sample, k) => {
     const x = w - bar * (list.length - k);
     let under = 0;
@@ -93,73 +109,107 @@ function drawCost() {
       pen.fillRect(x, y(under + ms), Math.max(1, bar - 0.5), y(under) - y(under + ms));
       under += ms;
     };
-    sample.parts.forEach((ms, i) => part(ms, stageColours[i % stageColours.length]));
-    part(sample.rest, restColour);
-    if (!sample.mark) return;
-    pen.strokeStyle = colours.ink; pen.lineWidth = 1;
-    pen.beginPath(); pen.moveTo(x, top - 2); pen.lineTo(x, bottom); pen.stroke();
-    pen.fillStyle = colours.ink; pen.textBaseline = "bottom"; pen.textAlign = x > w / 2 ? "right" : "left";
-    pen.fillText(sample.mark, x, top - 1);
+    sample.parts.forEach((ms, i) => part(ms, colourOf(i)));
+    part(sample.rest, otherColour);
+    if (sample.mark) marks.push([x, sample.mark]);
   });
-  pen.strokeStyle = colours.line; pen.lineWidth = 1;
+  pen.strokeStyle = pen.fillStyle = colours.ink; pen.lineWidth = 1; pen.textBaseline = "bottom";
+  for (const [x, mark] of marks.reverse()) {
+    pen.beginPath(); pen.moveTo(x, top - 2); pen.lineTo(x, bottom); pen.stroke();
+    const wide = pen.measureText(mark).width, from = x + wide < w ? x : x - wide;
+    if (from + wide > written - 6 || from < left) continue;
+    pen.textAlign = "left";
+    pen.fillText(mark, from, top - 1);
+    written = from;
+  }
+  pen.strokeStyle = colours.line;
   pen.beginPath(); pen.moveTo(left, bottom + 0.5); pen.lineTo(w, bottom + 0.5); pen.stroke();
   pen.fillStyle = colours.soft; pen.textAlign = "right"; pen.textBaseline = "middle";
   pen.fillText(`${short(scale)} ms`, left - 4, top + 1);
   pen.fillText("0", left - 4, bottom - 5);
+  let free = bottom - 12;
   for (const [ms, name] of lines) {
     if (ms > scale) continue;
     pen.strokeStyle = colours.mark; pen.setLineDash([4, 3]);
     pen.beginPath(); pen.moveTo(left, y(ms)); pen.lineTo(w, y(ms)); pen.stroke();
     pen.setLineDash([]);
-    if (y(ms) < bottom - 12 && y(ms) > top + 10) { pen.fillStyle = colours.mark; pen.fillText(name, left - 4, y(ms)); }
+    if (y(ms) < free && y(ms) > top + 12) { pen.fillStyle = colours.mark; pen.fillText(name, left - 4, y(ms)); free = y(ms) - 12; }
   }
-  const { step_ms, dt } = live.state, recent = list.slice(-10), mean = of => recent.reduce((sum, s) => sum + (of(s) || 0), 0) / Math.max(1, recent.length);
-  text($("costNow"), `${short(+mean(s => s.ms).toPrecision(3))} ms a frame`);
-  const pace = step_ms > 0 ? 1000 * dt / mean(s => s.ms) : 0;
-  text($("costPace"), pace > 0 && isFinite(pace) ? `${pace >= 1 ? short(+pace.toPrecision(2)) + " × faster than" : short(+pace.toPrecision(2)) + " ×"} real time` : "");
-  const legend = $("legend"), names = [...samples.stages.map((name, i) => [stageName(name), stageColours[i % stageColours.length], mean(s => s.parts[i])]), ["other", restColour, mean(s => s.rest)]];
-  while (legend.children.length < names.length) legend.append(make("span", {}, make("i"), make("span"), make("b")));
-  names.forEach(([name, colour, ms], i) => {
-    const row = legend.children[i];
-    row.hidden = name === "other" && ms < 0.01 * mean(s => s.ms);
+}
+
+const meanOf = (samples, of) => {
+  const recent = samples.list.slice(-10);
+  return recent.reduce((sum, s) => sum + (of(s) || 0), 0) / Math.max(1, recent.length);
+};
+
+function drawCost() {
+  const { scene, twin: copy } = samplesOf, state = live.state, both = twinState() !== null, shown = both ? [scene, copy] : [scene];
+  const high = Math.max(...shown.map(({ list }) => list.reduce((m, s) => Math.max(m, s.ms), 0))), scale = scales.find(s => s >= 1.1 * high) || high;
+  $("costsTwin").hidden = $("costsTwinName").hidden = !both;
+  drawBars($("costs"), scene, scale);
+  if (both) drawBars($("costsTwin"), copy, scale);
+  const ms = shown.map(samples => meanOf(samples, s => s.ms)), words = v => short(+v.toPrecision(3));
+  text($("costNow"), both ? `${words(ms[0])} and ${words(ms[1])} ms a frame` : `${words(ms[0])} ms a frame`);
+  const pace = state.step_ms > 0 ? 1000 * state.dt / ms[0] : 0;
+  text($("costPace"), pace > 0 && isFinite(pace) && !both ? `${pace >= 1 ? short(+pace.toPrecision(2)) + " × faster than" : short(+pace.toPrecision(2)) + " ×"} real time` : "");
+  drawLegend(shown, ms);
+  text($("pageCost"), `The page: ${live.pictureMs.toFixed(1)} ms of its own work a picture.`);
+}
+
+function drawLegend(shown, totals) {
+  const legend = $("legend"), rows = stages.map((name, i) => ({ name: stageName(name), colour: colourOf(i), ms: shown.map(samples => meanOf(samples, s => s.parts[i])) }));
+  const rest = shown.map(samples => meanOf(samples, s => s.rest)), other = rows.find(row => row.name === "other");
+  if (other) rest.forEach((ms, i) => { other.ms[i] += ms; });
+  else rows.push({ name: "other", colour: otherColour, ms: rest });
+  legend.classList.toggle("both", shown.length > 1);
+  while (legend.children.length < rows.length) legend.append(make("span", {}, make("i"), make("span"), make("b"), make("b")));
+  rows.forEach(({ name, colour, ms }, i) => {
+    const row = legend.children[i], number = v => v === undefined ? "" : v >= 0.0005 ? v.toPrecision(2) : "0";
+    row.hidden = name === "other" && !other && ms.every((v, k) => v < 0.01 * totals[k]);
     row.children[0].style.background = colour;
     text(row.children[1], name);
-    text(row.children[2], ms >= 0.0005 ? ms.toPrecision(2) : "0");
+    text(row.children[2], number(ms[0]));
+    text(row.children[3], number(ms[1]));
+    row.children[1].title = name;
   });
-  text($("pageCost"), `The page: ${live.pictureMs.toFixed(1)} ms of its own work a picture.`);
 }
 
 // Numbers -----
 
-const balance = { start: null };  // J: energy less its account, at the first state since the bodies or the settings changed
+const books = { scene: { start: null }, twin: { start: null } };  // J: energy less its account, at the first state since the bodies or the settings changed
 
-function numbersNow() {
-  const s = live.state, account = Object.entries(s.account || {}).filter(([, v]) => typeof v === "number");
+function numbersOf(s, book) {
+  const account = Object.entries(s.account || {}).filter(([, v]) => typeof v === "number");
   const rows = [["smallest gap", s.min_gap, "m", "gap"], ["residual", s.residual, "", "residual"], ["contacts", s.contacts, ""], ["lost time", s.lost_time, "s"],
                 ["energy", s.energy, "J", "energy"], ["kinetic", s.kinetic, "J"], ["potential", s.potential, "J"]];
   if (account.length) rows.push(["energy from, since the start"], ...account.map(([name, v]) => [name.replace(/_/g, " "), v, "J"]));
   if (typeof s.energy === "number" && account.length) {
     const left = s.energy - account.reduce((sum, [, v]) => sum + v, 0);
-    if (balance.start === null) balance.start = left;
-    rows.push(["not accounted for", left - balance.start, "J", null, "Change of the energy that its account does not explain, since bodies or settings were last changed"]);
+    if (book.start === null) book.start = left;
+    rows.push(["not accounted for", left - book.start, "J", null, "Change of the energy that its account does not explain, since bodies or settings were last changed"]);
   }
   return rows;
 }
 
+// The numbers of both, those of the copy by their names: an account may have other entries.
 function drawNumbers() {
-  const table = $("numbers"), rows = numbersNow();
+  const table = $("numbers"), state = twinState(), rows = numbersOf(live.state, books.scene), copy = new Map(state ? numbersOf(state, books.twin).map(row => [row[0], row]) : []);
+  for (const [name, row] of copy) if (!rows.some(r => r[0] === name)) rows.push([name, undefined, row[2]]);
+  if (state) rows.unshift(["head"]);
+  table.classList.toggle("both", state !== null);
   while (table.rows.length > rows.length) table.deleteRow(-1);
-  while (table.rows.length < rows.length) table.append(make("tr", {}, make("td"), make("td"), make("td"), make("td", {}, make("canvas", { hidden: true }))));
+  while (table.rows.length < rows.length) table.append(make("tr", {}, make("td"), make("td"), make("td"), make("td", {}, make("span"), make("canvas", { hidden: true }))));
+  const words = v => typeof v === "number" ? numberText(v) : v === null ? "none" : "";
   rows.forEach(([name, value, unit, curve, title], i) => {
-    const cells = table.rows[i].cells;
-    text(cells[0], name);
-    table.rows[i].className = value === undefined ? "title" : "";
-    text(cells[1], typeof value === "number" ? numberText(value) : value === null ? "none" : "");
-    text(cells[2], typeof value === "number" ? unit : "");
+    const cells = table.rows[i].cells, head = name === "head", other = copy.get(name), [span, canvas] = cells[3].children;
+    text(cells[0], head ? "" : name);
+    table.rows[i].className = head ? "both" : value === undefined && !(other && other[1] !== undefined) ? "title" : "";
+    text(cells[1], head ? "scene" : words(value));
+    text(cells[2], typeof value === "number" || (other && typeof other[1] === "number") ? unit : "");
     table.rows[i].title = title || "";
-    const canvas = cells[3].firstChild;
-    canvas.hidden = !curve;
-    if (curve) spark(canvas, samples.list.map(s => s[curve]), curve !== "energy");
+    text(span, head ? "copy" : other ? words(other[1]) : "");
+    canvas.hidden = !curve || state !== null;
+    if (!canvas.hidden) spark(canvas, samplesOf.scene.list.map(s => s[curve]), curve !== "energy");
   });
 }
 
@@ -178,132 +228,10 @@ function spark(canvas, values, decades) {
   let drawing = false;
   numbers.forEach((v, i) => {
     if (isNaN(v)) { drawing = false; return; }
-    const x = w - (w - 2) * (numbers.length - i) / samples.most, y = h - 2 - (h - 4) * (v - low) / span;
+    const x = w - (w - 2) * (numbers.length - i) / mostSamples, y = h - 2 - (h - 4) * (v - low) / span;
     if (drawing) pen.lineTo(x, y); else pen.moveTo(x - 0.5, y);
     pen.lineTo(x, y);
     drawing = true;
   });
   pen.stroke();
-}
-
-// Knobs -----
-
-const knobs = new Map();  // key -> its elements, and what it shows
-
-function offerKnobs(list) {
-  const signature = JSON.stringify(list.map(k => [k.key, k.low, k.high, k.choices, k.restarts]));
-  if (signature !== $("knobs").dataset.signature) {
-    $("knobs").dataset.signature = signature;
-    knobs.clear();
-    $("knobs").replaceChildren(...list.map(knobRow));
-    $("knobsPart").hidden = !list.length;
-  }
-  for (const k of list) showKnob(knobs.get(k.key), k.value);
-}
-
-const isLogarithmic = k => k.low > 0 && k.high > k.low;
-// A slider's place, 0 to 1000, for a value, and back.
-const placeOf = (k, v) => Math.round(1000 * (isLogarithmic(k) ? Math.log(v / k.low) / Math.log(k.high / k.low) : (v - k.low) / (k.high - k.low)));
-const valueAt = (k, place) => isLogarithmic(k) ? k.low * (k.high / k.low) ** (place / 1000) : k.low + (k.high - k.low) * place / 1000;
-// Two digits are enough for a slider; more can be typed.
-const knobText = v => String(+v.toPrecision(2)).replace(/e\+/, "e");
-
-function knobRow(k) {
-  const id = "knob_" + k.key, words = (k.choices || []).length > 0;
-  const field = words ? make("select", { id }, ...k.choices.map(c => new Option(c, c))) : make("input", { id, type: "text", spellcheck: false, autocomplete: "off" });
-  const slider = !words && k.high > k.low ? make("input", { type: "range", min: 0, max: 1000, step: 1 }) : null;
-  if (slider) slider.setAttribute("aria-label", k.key);
-  const note = make("div", { className: "note" }), answer = make("div", { className: "answer" });
-  answer.setAttribute("aria-live", "polite");
-  note.textContent = k.meaning + (k.restarts ? " Restarts the scene." : "");
-  const head = make("label", { htmlFor: id }, make("code", {}, k.key));
-  const row = make("div", { className: "knob" }, make("div", { className: "head" }, head, ...(k.restarts ? [make("span", { className: "tag" }, "restarts")] : []), field, make("span", { className: "unit" }, k.unit === "1" ? "" : k.unit || "")),
-                   ...(slider ? [slider] : []), note, answer);
-  const knob = { ...k, field, slider, answer, busy: 0 };
-  knobs.set(k.key, knob);
-  field.onchange = () => turn(knob, field.value);
-  if (slider) {  // what restarts the scene is sent when the slider is let go, all else while it moves
-    slider.oninput = () => {
-      field.value = knobText(valueAt(k, +slider.value));
-      if (!k.restarts) turn(knob, field.value);
-    };
-    if (k.restarts) slider.onchange = () => turn(knob, field.value);
-  }
-  return row;
-}
-
-function showKnob(knob, value) {
-  if (knob.busy || document.activeElement === knob.field) return;
-  if (knob.shown === value) return;
-  knob.shown = value;
-  if (knob.field.tagName === "SELECT" && ![...knob.field.options].some(o => o.value === value)) knob.field.add(new Option(value || "none", value));
-  knob.field.value = value;
-  if (knob.slider && isFinite(parseFloat(value))) knob.slider.value = placeOf(knob, parseFloat(value));
-}
-
-async function turn(knob, value) {
-  const sent = latest("set " + knob.key, { do: "set", key: knob.key, value: String(value).trim() });
-  if (!sent) return;
-  ++knob.busy;
-  tell(knob.answer, await sent, knob.key);
-  --knob.busy;
-  knob.shown = null;  // what holds now is the server's to say
-  if (knob.field.tagName === "INPUT" && document.activeElement === knob.field) knob.field.select();
-}
-
-// What became of a setting, below its knob or switch.
-function tell(element, answer, key) {
-  element.className = answer.ok ? "answer" : "answer bad";
-  const how = answer.restarted ? "scene restarted" : answer.rebuilt ? "rebuilt" : "set";
-  text(element, answer.ok ? `${how}${answer.ms > 0 ? ` in ${short(+answer.ms.toPrecision(2))} ms` : ""}${answer.text ? ": " + answer.text : ""}` : answer.text);
-  if (!answer.ok) return;
-  pendingMark = key;
-  balance.start = null;
-}
-
-// Effects -----
-
-const effects = new Map();  // name -> its elements
-
-function offerEffects(list) {
-  const signature = JSON.stringify(list.map(([name, e]) => [name, e.can_switch, e.set]));
-  if (signature !== $("effects").dataset.signature) {
-    $("effects").dataset.signature = signature;
-    effects.clear();
-    $("effects").replaceChildren(...list.map(([name, e]) => effectRow(name, e)));
-    $("effectsPart").hidden = !list.length;
-  }
-  for (const [name, e] of list) showEffect(effects.get(name), e);
-}
-
-function effectRow(name, e) {
-  const button = make("button", { className: "switch", disabled: !canSwitch(e) }), ms = make("b"), why = make("div", { className: "note" }), adds = make("div", { className: "note" });
-  const answer = make("div", { className: "answer" });
-  button.setAttribute("role", "switch");
-  button.setAttribute("aria-label", name);
-  answer.setAttribute("aria-live", "polite");
-  const row = make("div", { className: "effect" }, make("div", { className: "head" }, button, make("span", { className: "name" }, name.replace(/_/g, " ")), ms), why, adds, answer);
-  const effect = { row, button, ms, why, adds, answer, set: e.set, busy: false };
-  effects.set(name, effect);
-  button.onclick = async () => {
-    if (effect.busy) return;
-    effect.busy = true;
-    row.classList.add("busy");
-    const on = button.getAttribute("aria-checked") !== "true";
-    tell(answer, await command({ do: "set", key: e.set.key, value: on ? e.set.on : "none" }), `${name} ${on ? "on" : "off"}`);
-    effect.busy = false;
-    row.classList.remove("busy");
-  };
-  return row;
-}
-
-const canSwitch = e => !!(e.can_switch && e.set && e.set.key);
-
-function showEffect(effect, e) {
-  effect.button.setAttribute("aria-checked", e.on === true);
-  effect.button.title = canSwitch(e) ? `${e.set.key}: ${e.on ? "none" : e.set.on}` : "No key of the scene switches this by itself.";
-  effect.row.classList.toggle("off", !e.on);
-  text(effect.ms, e.on && e.ms > 0 ? `${(+e.ms).toPrecision(2)} ms` : "");
-  text(effect.why, e.why || (e.on ? "" : "not asked for by this scene"));
-  text(effect.adds, e.adds ? (e.on ? "Adds: " : "Would add: ") + e.adds : "");
 }

@@ -39,9 +39,20 @@ function meets(item, from, way) {
   return first;
 }
 
+// Where on the page a picture is: that of the scene, or of its copy. One alone has all of the canvas, two have a half each.
+function pictureBox(copy) {
+  const box = $("scene").getBoundingClientRect();
+  return isSplit() ? { left: box.left + (copy ? 0.5 : 0) * box.width, top: box.top, width: 0.5 * box.width, height: box.height } : box;
+}
+function copyAt(clientX) {
+  if (!isSplit()) return false;
+  const box = $("scene").getBoundingClientRect();
+  return clientX >= box.left + 0.5 * box.width;
+}
+
 // The way from the eye through a point of the screen, as long as it needs to go one metre away from the camera's plane.
-function wayThrough(clientX, clientY) {
-  const box = $("scene").getBoundingClientRect(), aspect = box.width / box.height, half = Math.tan(0.35) / Math.min(1, aspect);
+function wayThrough(clientX, clientY, copy = copyAt(clientX)) {
+  const box = pictureBox(copy), aspect = box.width / box.height, half = Math.tan(0.35) / Math.min(1, aspect);
   const [right, up, back] = cameraAxes();
   const sideways = half * aspect * (2 * (clientX - box.left) / box.width - 1), upwards = half * (1 - 2 * (clientY - box.top) / box.height);
   return right.map((v, i) => sideways * v + upwards * up[i] - back[i]);
@@ -50,6 +61,13 @@ function wayThrough(clientX, clientY) {
 // The body that is seen at a point of the screen: its number, how far away it is, and the point in its own axes; or null. What
 // hides the rest is looked through.
 function pick(clientX, clientY) {
+  const copy = copyAt(clientX);
+  if (copy) poseLive(twin);
+  const seen = pickPosed(clientX, clientY);
+  if (copy) poseLive(live);
+  return seen;
+}
+function pickPosed(clientX, clientY) {
   const eye = eyeOf(), way = wayThrough(clientX, clientY);
   let best = Infinity, body = -1;
   for (let i = 0; i < motion.bodies.length; ++i) {
@@ -70,9 +88,9 @@ function placed(local, poses, o) {
           poses[o + 2] + vz + 2 * (w * cz + x * cy - y * cx)];
 }
 
-// Where a point in the world is drawn on the page, in its pixels.
-function onScreen(point) {
-  const box = $("scene").getBoundingClientRect(), m = viewMatrix(box.width / box.height);
+// Where a point in the world is drawn on the page, in its pixels; in the picture of the scene, or of its copy.
+function onScreen(point, copy = false) {
+  const box = pictureBox(copy), m = viewMatrix(box.width / box.height);
   const clip = [0, 1, 3].map(r => m[r] * point[0] + m[4 + r] * point[1] + m[8 + r] * point[2] + m[12 + r]);
   return { x: box.left + box.width * (0.5 + 0.5 * clip[0] / clip[2]), y: box.top + box.height * (0.5 - 0.5 * clip[1] / clip[2]), before: clip[2] > 0 };
 }

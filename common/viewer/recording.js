@@ -31,6 +31,7 @@ let colours = {};
 function readColours() {
   const style = getComputedStyle(document.documentElement);
   for (const name of ["ink", "soft", "line", "mark", "go", "ground"]) colours[name] = style.getPropertyValue("--" + name).trim();
+  colours.dark = matchMedia("(prefers-color-scheme: dark)").matches;
   colours.clear = colours.ground.match(/[0-9a-f]{2}/gi).map(v => parseInt(v, 16) / 255);
 }
 
@@ -116,7 +117,7 @@ function load(bytes, known = []) {
   const levels = (extras.levels || []).map(l => ({ ...l, geometry: geometryOf(l.mesh, false), items: l.bodies.map(i => bodies[i]) }));
   const frameTimes = extras.frame_times === undefined ? new Float32Array([0]) : accessor(extras.frame_times);
   return {
-    extras, bodies, contacts, levels, anyMoves: bodies.some(b => b.moves), frameTimes, duration: frameTimes[frameTimes.length - 1],
+    extras, bodies, contacts, levels, algorithm: (json.extras || {}).algorithm || [], anyMoves: bodies.some(b => b.moves), frameTimes, duration: frameTimes[frameTimes.length - 1],
     geometries: [...new Set(geometries.values())],
     impacts: extras.impact_times === undefined ? new Float32Array(0) : accessor(extras.impact_times),
     series: fromLowestPotential((extras.series || []).map(s => ({ ...s, values: accessor(s.values) }))),

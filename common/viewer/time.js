@@ -41,9 +41,11 @@ function drawRecording(passed) {
     now.time = Math.min(motion.duration, now.time + passed * now.speed);
     if (now.time >= motion.duration) now.playing = false;
   }
+  keepUpAlgorithm();
   drawScene();
+  drawOverlay();
   drawAxes();
-  drawStrips();
+  if (!algorithm.open) drawStrips();
   drawInfo();
   showButtons();
   if (now.playing) redraw();
@@ -53,7 +55,9 @@ function drawLive(passed) {
   const start = performance.now(), more = advance(passed);
   hover();
   if (grip.body >= 0) dragOn();
+  keepUpAlgorithm();
   drawScene();
+  drawOverlay();
   drawAxes();
   drawLiveInfo();
   showButtons();

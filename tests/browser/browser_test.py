@@ -4,8 +4,11 @@ Usage: browser_test.py BIN_DIR; BIN_DIR has the chapters' executables. Where no 
 with 77, unless FC_BROWSER_REQUIRED=1 is set.
 """
 
+import base64
 import io
+import json
 import os
+import struct
 import subprocess
 import sys
 import tempfile
@@ -17,7 +20,9 @@ import numpy as np
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).parent))
+from algorithm_checks import check_steps  # noqa: E402
 from devtools import NoBrowser, Page  # noqa: E402
+from fake_server import account  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
 BIN = ROOT / "build/bin"
@@ -299,6 +304,58 @@ class BrowserTest(unittest.TestCase):
         self.assertGreater(np.abs(pixels(self.page) - plain).mean(), 1)
         self.assertEqual(self.page.complaints, [])
         print(f"two bunnies: {self.page.js('viewer.cost(20)'):.1f} ms a picture, software drawing included")
+
+    def with_algorithm(self, documents: list) -> Path:
+        """The recording of the two balls, with documents of the algorithm in its glTF's extras."""
+        text = self.balls.read_text(encoding="utf-8")
+        start = text.index('recording = "') + len('recording = "')
+        end = text.index('"', start)
+        data = base64.b64decode(text[start:end])
+        length = struct.unpack_from("<I", data, 12)[0]
+        content = json.loads(data[20:20 + length])
+        content["extras"] = {"algorithm": documents}
+        part = json.dumps(content).encode()
+        part += b" " * (-len(part) % 4)
+        rest = data[20 + length:]
+        data = struct.pack("<4sII", b"glTF", 2, 20 + len(part) + len(rest)) + struct.pack("<I4s", len(part), b"JSON") + part + rest
+        file = self.folder / "algorithm.html"
+        file.write_text(text[:start] + base64.b64encode(data).decode() + text[end:], encoding="utf-8")
+        return file
+
+    def test_the_algorithm_step_by_step(self):
+        late = {**account(1.0, 1.05, 21), "parts": [{"chapter": 4, "title": "the clocks", "steps": [{"text": "Nothing moves."}]}]}
+        file = self.with_algorithm([account(0.45, 0.5, 10), late])
+        self.open(file, "?t=0.1")
+        self.assertEqual(self.page.js("document.getElementById('algorithm').offsetParent !== null"), True)
+        self.page.press("a")
+        self.assertAlmostEqual(self.state()["time"], 0.45, places=6)
+
+        def picture():
+            image = matplotlib.image.imread(io.BytesIO(self.page.picture()), format="png")[:, :, :3] * 255
+            size = self.page.js("[document.getElementById('stage').clientWidth, document.getElementById('stage').clientHeight]")
+            return image[:size[1], :size[0]]
+
+        check_steps(self, self.page, picture, (-1.1, 0, 0))
+        self.assert_quiet(file)
+        # Of several documents one is chosen; to go elsewhere in time leaves it.
+        self.page.press("a")
+        self.page.js("(e => { e.value = 1; e.onchange({ target: e }); })(document.getElementById('documents'))")
+        self.assertAlmostEqual(self.state()["time"], 1.0, places=6)
+        self.assertEqual(self.page.js("viewer.algorithm().text"), "Nothing moves.")
+        self.page.press("ArrowRight")
+        self.assertAlmostEqual(self.state()["time"], 1.05, places=6)
+        self.assertFalse(self.page.js("viewer.algorithm().open"))
+        self.page.press("a")  # the nearest
+        self.assertEqual(self.page.js("viewer.algorithm().chosen"), 1)
+        self.assert_quiet(file)
+
+    def test_a_recording_without_the_algorithm(self):
+        self.open(self.balls)
+        self.page.press("a")
+        self.page.settle()
+        self.assertFalse(self.page.js("viewer.algorithm().open"))
+        self.assertEqual(self.page.js("[document.getElementById('algorithm').hidden, document.getElementById('algorithmKeys').hidden, document.getElementById('levelKeys').hidden]"), [True] * 3)
+        self.assert_quiet(self.balls)
 
     def test_a_thousand_bodies(self):
         page = run("ch04_multibody_stepping", self.folder / "crowd.yaml", self.folder / "crowd")

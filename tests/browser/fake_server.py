@@ -1,5 +1,6 @@
 """A server of a live scene as common/live/STREAM.md describes it, with bodies that move by formulas: for tests of the page."""
 
+import copy
 import json
 import math
 import struct
@@ -91,6 +92,8 @@ class Scene:
         self.geometry = 0
         self.values = {"ccd.tolerance": "1e-6", "solver.method": "dantzig", "step.dt": str(dt), "restitution": "0.3"}
         self.gravity = True
+        self.twin = None  # a copy of this, and its first frame
+        self.warnings = []
         self.reset()
 
     def reset(self):
@@ -99,6 +102,7 @@ class Scene:
         self.moves = np.array([not static for _, static, _ in self.bodies])
         self.frame, self.failed, self.grabbed, self.local, self.target = 0, None, -1, np.zeros(3), np.zeros(3)
         self.geometry += 1
+        self.separate = None  # s: since then this is a copy, and runs away from the scene
 
     def add_ball(self, at):
         self.bodies.append(("ball", False, (*at, 0, 0, 0, 1)))
@@ -110,6 +114,9 @@ class Scene:
         poses = self.places.copy()
         t = self.frame * self.dt
         poses[self.moves, 0] += 0.3 * math.sin(t)
+        if self.separate is not None:  # the last body that moves flies off, tenfold farther each half second
+            last = np.flatnonzero(self.moves)[-1]
+            poses[last, 1] += min(0.8, 1e-6 * (10 ** (2 * (t - self.separate)) - 1))
         half = 0.5 * t
         poses[self.moves, 5], poses[self.moves, 6] = math.sin(half), math.cos(half)
         if self.grabbed >= 0:
@@ -119,11 +126,11 @@ class Scene:
     def state(self, running):
         t = self.frame * self.dt
         busy = 1 + 0.25 * math.sin(3 * t) + (1.6 if self.values["ccd.tolerance"] == "1e-9" else 0)
-        stages = {"broad_ms": 0.4, "ccd_ms": 3.1 * busy, "contacts_ms": 0.7, "lcp_ms": 1.9 * busy, "corrections_ms": 0.3}
+        stages = {"broad_ms": 0.4, "ccd_ms": 3.1 * busy, "contacts_ms": 0.7, "lcp_ms": 1.9 * busy, "corrections_ms": 0.3, "other_ms": 0.2}
         effect = {"on": True, "ms": 0.12, "can_switch": True, "set": {"key": "gravity", "on": "[0, 0, -9.81]"}, "why": "declared at line 4", "adds": "an acceleration of every body"}
         off = {"on": False, "ms": 0, "can_switch": False, "set": {"key": "", "on": ""}, "why": "not asked for by this scene", "adds": "cones of friction in the solver"}
         knob = {"unit": "1", "low": 0, "high": 0, "choices": [], "restarts": False}
-        return {"t": t, "frame": self.frame, "running": running, "failed": self.failed, "title": self.title, "dt": self.dt, "bodies": len(self.bodies),
+        state = {"t": t, "frame": self.frame, "running": running, "failed": self.failed, "title": self.title, "dt": self.dt, "bodies": len(self.bodies),
                 "geometry": self.geometry, "step_ms": sum(stages.values()), "stages": stages, "contacts": 2, "energy": 12.5 - 0.1 * t, "kinetic": 2.5, "potential": 10 - 0.1 * t,
                 "account": {"impacts": -0.1 * t, "friction": 0.0, "hand": 0.0}, "min_gap": None if self.frame == 0 else 5e-7 * (1.5 + math.sin(7 * t)), "lost_time": 0,
                 "residual": 10 ** (-13 + math.sin(5 * t)), "speed": self.speed,
@@ -131,20 +138,86 @@ class Scene:
                 "knobs": [{**knob, "key": "ccd.tolerance", "unit": "m", "value": self.values["ccd.tolerance"], "low": 1e-9, "high": 1e-2, "meaning": "Gap at which two bodies are in contact."},
                           {**knob, "key": "restitution", "value": self.values["restitution"], "low": 0, "high": 1, "meaning": "Part of the approach speed that an impact returns."},
                           {**knob, "key": "solver.method", "value": self.values["solver.method"], "choices": ["dantzig", "lemke", "pgs"], "meaning": "Algorithm that solves the LCP."},
-                          {**knob, "key": "step.dt", "unit": "s", "value": self.values["step.dt"], "low": 1e-3, "high": 0.1, "meaning": "Length of a frame.", "restarts": True}]}
+                          {**knob, "key": "step.dt", "unit": "s", "value": self.values["step.dt"], "low": 1e-3, "high": 0.1, "meaning": "Length of a frame.", "restarts": True},
+                          {**knob, "key": "envelope", "unit": "m", "value": "none", "low": 1e-6, "high": 1e-2, "meaning": "Gap that contacts which last keep.", "can_switch": False, "why": "no body of this scene rests"}]}
+        if self.warnings:
+            state["warnings"] = self.warnings
+        state["twin"] = None
+        if self.twin:
+            left_out = ("running", "title", "bodies", "geometry", "speed", "warnings", "twin")
+            state["twin"] = {k: v for k, v in self.twin.state(running).items() if k not in left_out} | {"distance": None if math.isnan(self.distance()[0]) else self.distance()[0]}
+        return state
+
+    def distance(self):
+        """How far the same body's centres are apart at most, and which body's; NaN at two times."""
+        if abs(self.twin.frame * self.twin.dt - self.frame * self.dt) > 1e-9 * self.dt:
+            return math.nan, -1
+        away = np.linalg.norm(self.twin.poses()[:, :3] - self.poses()[:, :3], axis=1)
+        return float(away.max()), int(away.argmax())
+
+    def make_twin(self, on):
+        self.twin = copy.deepcopy(self) if on else None
+        if on:
+            self.twin.twin, self.twin.separate = None, self.frame * self.dt
+
+    def algorithm(self):
+        """What GET /algorithm tells, or None where it fails."""
+        return account(self.frame * self.dt, (self.frame + 1) * self.dt, self.frame + 1)
+
+    def advance(self):
+        self.frame += 1
+        while self.twin and not self.twin.failed and self.twin.frame * self.twin.dt < self.frame * self.dt - 1e-12:
+            self.twin.frame += 1
 
     speed = 1
 
     def frame_message(self, running):
+        return self.message(1, b"", running)
+
+    def messages(self, running):
+        twin = self.twin.message(3, struct.pack("<di", *self.distance()), running) if self.twin else b""
+        return self.frame_message(running) + twin
+
+    def message(self, kind, more, running):
         poses = self.poses().astype("<f4")
         contacts = np.zeros((2, 10), "<f4")
         contacts[0] = (*poses[0, :2], poses[0, 2] - 0.5, 0, 0, 1, 0, 0, 0.5, 1)
         contacts[1] = (*poses[0, :2], poses[0, 2] + 0.5, 1, 0, 0, 2, 0, 0, 0)
-        body = struct.pack("<IIdIIIi", self.geometry, self.frame, self.frame * self.dt, (1 if running else 0) | (2 if self.failed else 0), len(poses), 2, self.grabbed)
+        body = more + struct.pack("<IIdIIIi", self.geometry, self.frame, self.frame * self.dt, (1 if running else 0) | (2 if self.failed else 0), len(poses), 2, self.grabbed)
         body += poses.tobytes() + contacts.tobytes()
         if self.grabbed >= 0:
             body += np.array([*(poses[self.grabbed, :3] + self.local), *self.target], "<f4").tobytes()
-        return struct.pack("<II", len(body) + 4, 1) + body
+        return struct.pack("<II", len(body) + 4, kind) + body
+
+
+def account(t0, t1, frame):
+    """A document of the algorithm with each kind of mark, a chart of each kind, and bars. Its first step moves body 0."""
+    corners = [[x, y, z] for z in (0.1, 0.9) for x, y in ((-0.6, 1.2), (0.9, 1.2), (0.9, 2.2), (-0.6, 2.2))]
+    faces = [[0, 2, 1], [0, 3, 2], [4, 5, 6], [4, 6, 7], [0, 1, 5], [0, 5, 4], [1, 2, 6], [1, 6, 5], [2, 3, 7], [2, 7, 6], [3, 0, 4], [3, 4, 7]]
+    ring = [[1.5 + 0.8 * math.cos(a), -0.5 + 0.8 * math.sin(a), 0.02] for a in np.linspace(0, 2 * math.pi, 33)[:-1]]
+    times = [t0 + (t1 - t0) * (1 - 0.5 ** k) for k in range(8)]
+    gap = {"name": "certified gap", "role": "now", "points": [[t, 0.4 * 0.5 ** k] for k, t in enumerate(times)], "steps": False}
+    bound = {"name": "motion bound", "role": "past", "points": [[t0, 0.4], [t1, 0.0]], "steps": False}
+    error = {"name": "error", "role": "a", "points": [[k, 10.0 ** (-2 * k)] for k in range(8)], "steps": True}
+    return {"frame": frame, "t0": t0, "t1": t1, "parts": [
+        {"chapter": 1, "title": "body 0 and body 1: the first time of contact", "steps": [
+            {"text": "Advance 1: the gap is at least 0.4 m, and closes with at most 24 m/s. Until 0.45 s nothing can touch.",
+             "poses": [[0, -0.5, -1.0, 1.5, 0, 0, 0, 1]],
+             "draw": [{"kind": "plane", "at": [0, -0.8, 0.8], "normal": [1, 0, 0], "radius": 1.2, "role": "now"},
+                      {"kind": "line", "points": [[-1.0, -0.9, 0.5], [1.0, -0.6, 0.5]], "role": "now", "closed": False},
+                      {"kind": "point", "at": [-1.0, -0.9, 0.5], "role": "a"}, {"kind": "point", "at": [1.0, -0.6, 0.5], "role": "b"},
+                      {"kind": "label", "at": [-1.0, -0.9, 0.5], "text": "gap 0.4 m"}, {"kind": "label", "at": [1.0, -0.6, 0.5], "text": "witness of body 1"},
+                      {"kind": "label", "at": [1.0, -0.6, 0.5], "text": "on the same point"}],
+             "chart": {"x": "time of the frame [s]", "y": "gap [m]", "log": False, "curves": [gap, bound], "marks": [[times[1], 0.2, "advance 1"], [times[2], 0.1, "advance 2"], [times[3], 0.05, "advance 3"]]}},
+            {"text": "Advance 2: proved.", "draw": [{"kind": "line", "points": ring, "role": "good", "closed": True}, {"kind": "arrow", "from": [1.5, -0.5, 0.5], "to": [1.5, -0.5, 2.0], "role": "force"}]}]},
+        {"chapter": 2, "title": "the node pairs that the search opened, the best first, which is a long title", "steps": [
+            {"text": "The hulls of both nodes; the pair is refused.", "draw": [{"kind": "mesh", "points": corners, "triangles": faces, "role": "a"}, {"kind": "line", "points": [[-3, 3, 0.2], [3, 3, 0.2]], "role": "bad", "closed": False},
+                                                                             {"kind": "point", "at": [0, 3, 0.2], "role": "bad"}, {"kind": "point", "at": [0, -3, 0.2], "role": "past"}]}]},
+        {"chapter": 3, "title": "impulses, pivot by pivot", "steps": [
+            {"text": "Pivot 3: row 2 leaves the basis with 1.25 N s, row 0 comes in.",
+             "bars": {"title": "impulses after this pivot", "unit": "N s", "rows": [{"label": f"contact {k}", "value": v, "role": r, "note": n} for k, (v, r, n) in
+                                                                                  enumerate(((1.25, "good", "in"), (-0.4, "bad", "must not pull"), (0.0, "past", ""), (3.5e-3, "now", "comes in"), (None, "past", "not known")))]},
+             "chart": {"x": "pivot", "y": "error [m/s]", "log": True, "curves": [error], "marks": [[3, 1e-6, "tolerance"]]}}]}]}
 
 
 class Refused(Exception):
@@ -218,11 +291,11 @@ class FakeServer:
                 continue
             with self.change:
                 if self.running:
-                    self.scene.frame += 1
+                    self.scene.advance()
                     self.publish()
 
     def publish(self, at_once=False):
-        self.message = self.scene.frame_message(self.running)
+        self.message = self.scene.messages(self.running)
         self.version += 1
         self.told += at_once
         self.change.notify_all()
@@ -256,6 +329,12 @@ class FakeServer:
             with self.change:
                 bodies = [(shape, static, pose) for (shape, static, _), pose in zip(self.scene.bodies, self.scene.poses())]
             self.answer(handler, 200, glb(self.scene.title, self.scene.shapes, bodies), "model/gltf-binary")
+        elif name == "/algorithm":
+            with self.change:
+                self.running = False
+                told = self.scene.algorithm()
+                self.publish(True)
+            self.answer(handler, *((503, "the next frame cannot be worked out", "text/plain") if told is None else (200, json.dumps(told))))
         elif name == "/stream":
             self.stream(handler)
         else:
@@ -313,45 +392,59 @@ class FakeServer:
             self.running = do == "run"
         elif do == "step":
             self.running = False
-            scene.frame += 1
+            scene.advance()
         elif do == "reset":
+            twin, scene.twin = scene.twin, None
             scene.reset()
+            scene.make_twin(twin is not None)
             self.running = True
             return {"restarted": True}
+        elif do == "twin":
+            scene.make_twin(command["on"])
+            return {"rebuilt": True, "ms": 1.25}
         elif do == "grab":
             if not scene.moves[command["body"]]:
                 raise Refused(f"body {command['body']} is static: it cannot be grabbed")
-            pose = scene.poses()[command["body"]]
-            scene.local = np.array(command["point"]) - pose[:3]
-            scene.target, scene.grabbed = np.array(command["point"]), command["body"]
+            local = np.array(command["point"]) - scene.poses()[command["body"]][:3]
+            for each in filter(None, (scene, scene.twin)):
+                each.local, each.target, each.grabbed = local, np.array(command["point"]), command["body"]
         elif do == "drag":
             if scene.grabbed < 0:
                 raise Refused("nothing is grabbed")
-            scene.target = np.array(command["to"])
+            for each in filter(None, (scene, scene.twin)):
+                each.target = np.array(command["to"])
         elif do == "drop":
-            if scene.grabbed >= 0:
-                scene.places[scene.grabbed, :3] = scene.target - scene.local
-            scene.grabbed = -1
+            for each in filter(None, (scene, scene.twin)):
+                if each.grabbed >= 0:
+                    each.places[each.grabbed, :3] = each.target - each.local
+                each.grabbed = -1
         elif do == "throw":
-            scene.add_ball(np.array(command["from"]) + 0.3 * np.array(command["velocity"]))
+            for each in filter(None, (scene, scene.twin)):
+                each.add_ball(np.array(command["from"]) + 0.3 * np.array(command["velocity"]))
             return {"rebuilt": True, "ms": 1.5}
         elif do == "speed":
             scene.speed = command["value"]
         elif do == "save":
             return {"scene": "name: saved\n"}
         elif do == "set":
-            return self.set(command["key"], command["value"])
+            return self.set(scene.twin if command.get("of") == "twin" else scene, command["key"], command["value"])
         return {}
 
-    def set(self, key, value):
+    def set(self, scene, key, value):
+        if scene is None:
+            raise Refused("there is no copy")
         if key == "gravity":
-            self.scene.gravity = value != "none"
+            scene.gravity = value != "none"
             return {"rebuilt": True, "ms": 2.25}
         if key != "solver.method" and not 0 < float(value) <= 1000:
             raise Refused(f"{key} must be in (0, 1000], but is {value}")
-        self.scene.values[key] = value
+        scene.values[key] = value
         if key == "step.dt":
-            self.scene.reset()
+            if scene.separate is not None:  # the copy goes on, with frames of another length
+                t, scene.dt = scene.frame * scene.dt, float(value)
+                scene.frame = math.ceil(t / scene.dt)
+                return {"rebuilt": True, "ms": 4}
+            scene.reset()
             return {"restarted": True, "ms": 4}
         return {"rebuilt": True, "ms": 3.14}
 

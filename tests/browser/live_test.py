@@ -17,6 +17,7 @@ import numpy as np
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).parent))
+from algorithm_checks import check_steps  # noqa: E402
 from devtools import NoBrowser, Page  # noqa: E402
 from fake_server import FakeServer, bunnies_scene, crowd_scene, table_scene  # noqa: E402
 
@@ -65,6 +66,13 @@ class LiveTest(unittest.TestCase):
     def done(self, kind):
         """The commands of a kind that have come."""
         return [c for c in list(self.server.commands) if c["do"] == kind]
+
+    def pulled_to(self, x, y, copy=False):
+        """Waits until the server pulls to what is drawn at this point of the page."""
+        def away():
+            seen = self.page.js(f"onScreen({[float(v) for v in self.server.scene.target]}, {str(copy).lower()})")
+            return max(abs(seen["x"] - x), abs(seen["y"] - y))
+        self.wait(lambda: away() < 1.5)
 
     def where(self, body):
         self.page.settle()
@@ -142,11 +150,8 @@ class LiveTest(unittest.TestCase):
         self.wait(lambda: self.server.scene.grabbed == 0 and np.linalg.norm(self.server.scene.target - grab["point"]) > 0.3)
         self.wait("viewer.live().grabbed === 0")
         # The grabbed point is drawn below the pointer.
-        self.page.js("new Promise(done => setTimeout(done, 200))")
+        self.pulled_to(x + 100, y - 60)
         target = [float(v) for v in self.server.scene.target]
-        seen = self.page.js(f"onScreen({target})")
-        self.assertAlmostEqual(seen["x"], x + 100, delta=1.5)
-        self.assertAlmostEqual(seen["y"], y - 60, delta=1.5)
         far = self.page.js(f"dot3(cameraAxes()[2], eyeOf().map((v, i) => v - {target}[i]))")
         self.page.mouse("Wheel", x + 100, y - 60, deltaX=0, deltaY=-300)
         self.wait(lambda: self.page.js(f"dot3(cameraAxes()[2], eyeOf().map((v, i) => v - {[float(v) for v in self.server.scene.target]}[i]))") > 1.2 * far)
@@ -276,6 +281,7 @@ class LiveTest(unittest.TestCase):
         self.assertTrue(numbers["energy"].endswith(" J") and numbers["impacts"].startswith("-"))
         self.assertLess(abs(float(numbers["not accounted for"].split()[0])), 1e-9)
         self.assertEqual(self.page.js("[...document.querySelectorAll('#legend span span')].map(e => e.textContent)"), ["broad", "CCD", "contacts", "LCP", "corrections", "other"])
+        self.assertEqual(self.page.js("getComputedStyle(document.querySelector('#legend > span:last-child i')).backgroundColor"), "rgb(170, 177, 192)", "neutral")
         cost = float(self.shown("costNow").split()[0])
         self.assertTrue(4 < cost < 9, cost)
         # The strip is as high as its samples say, in the stages' colours.
@@ -351,6 +357,178 @@ class LiveTest(unittest.TestCase):
         self.server.start()
         self.wait(lambda: "key in this page's address" in self.shown("banner"))
         self.assertTrue(self.live()["ended"])
+
+    def split(self, scene=None, running=True):
+        self.open(scene, running)
+        self.page.press("t")
+        self.wait("viewer.twin().split && viewer.twin().frame >= 0")
+
+    def test_two_copies_have_one_camera(self):
+        self.split(running=False)
+        self.assertEqual(self.done("twin"), [{"do": "twin", "on": True}])
+        size = self.page.js("[document.getElementById('stage').clientWidth, document.getElementById('stage').clientHeight]")
+        for body in (0, 1, 4):
+            left, right = self.page.js(f"viewer.onScreen({body})"), self.page.js(f"viewer.onScreen({body}, true)")
+            self.assertAlmostEqual(right["x"] - left["x"], size[0] / 2, delta=0.01)
+            self.assertAlmostEqual(right["y"], left["y"], delta=0.01)
+        # Both halves show the same, but for what is written over them, until the two part.
+        def halves():
+            self.page.js("document.getElementById('toast').hidden = true")
+            image, half = self.picture(), size[0] // 2
+            return image[130:size[1] - 60, 160:half - 4], image[130:size[1] - 60, 160 + half:2 * half - 4]
+        one, other = halves()
+        self.assertGreater(np.abs(one - one[0, 0]).max(axis=2).astype(bool).mean(), 0.05, "there is nothing")
+        self.assertLess((np.abs(one - other).max(axis=2) > 30).mean(), 2e-3)
+        self.page.mouse("Pressed", 60, 300)
+        self.page.mouse("Moved", 160, 280)
+        self.page.mouse("Released", 160, 280)
+        turned, twin = halves()
+        self.assertGreater((np.abs(one - turned).max(axis=2) > 30).mean(), 0.02)
+        self.assertLess((np.abs(turned - twin).max(axis=2) > 30).mean(), 2e-3)
+        self.server.scene.twin.places[2, 2] += 2
+        self.page.press("ArrowRight")
+        self.wait("viewer.twin().distance > 1.9")
+        one, other = halves()
+        self.assertGreater((np.abs(one - other).max(axis=2) > 30).mean(), 5e-3)
+        self.assertEqual((self.shown("sceneTitle"), self.shown("twinTitle")), ("this scene", "its copy"))
+        self.page.press("t")
+        self.wait("!viewer.twin().split && !viewer.twin().on")
+        self.assertEqual((self.shown("sceneTitle"), self.shown("apartWho")), ("", ""))
+        self.assert_quiet()
+
+    def test_the_distance_of_two_copies_over_time(self):
+        self.split()
+        self.wait("viewer.twin().count > 20 && viewer.twin().distance > 1e-5")
+        self.assertEqual(self.page.js("viewer.twin().farthest"), 2)
+        self.wait(lambda: self.shown("apartWho") == "Farthest apart: body 2.")
+        self.assertTrue(self.shown("apartNow").endswith(" m"))
+        # Each value is that of the formula at its time.
+        curve = self.page.js("[...apart.t.subarray(0, apart.count)].map((t, k) => [t, apart.distance[k]])")
+        since = self.server.scene.twin.separate
+        for t, distance in curve:
+            self.assertAlmostEqual(distance, min(0.8, 1e-6 * (10 ** (2 * (t - since)) - 1)), delta=1e-9 + 1e-6 * distance)
+        drawn = """(() => { drawApart(); const c = document.getElementById('apart'), d = c.getContext('2d').getImageData(44, 0, c.width - 54, c.height - 32), rows = [];
+            for (let x = 0; x < d.width; x += 4) for (let y = 0; y < d.height; ++y) { const o = 4 * (y * d.width + x); if (d.data[o + 3] > 150 && d.data[o] > 150 && d.data[o + 2] < 90) { rows.push(y); break; } }
+            return rows; })()"""
+        rows = self.page.js(drawn)
+        self.assertGreater(len(rows), 20, "the curve")
+        self.assertLess(rows[-1], rows[3], "it rises")
+        # Frames of another length: while the two are at other times, there is a gap.
+        self.page.press(" ")
+        self.wait("!viewer.live().running")
+        self.click("forTwin")
+        self.page.js(f"(e => {{ e.value = '0.1'; e.onchange(); }})({self.knob('step.dt')})")
+        self.wait(lambda: self.done("set") == [{"do": "set", "key": "step.dt", "value": "0.1", "of": "twin"}])
+        for _ in range(3):
+            self.page.press("ArrowRight")
+        self.wait(lambda: self.shown("apartNow") == "at other times")
+        self.assertIsNone(self.page.js("viewer.twin().distance"))
+        self.page.press("0")
+        self.wait("viewer.twin().count > 0 && viewer.twin().count < 20", 5)
+        self.assertEqual(self.page.complaints, [])
+
+    def test_the_curve_of_distances_keeps_its_largest(self):
+        self.split(running=False)
+        kept = self.page.js("""(() => { apart.count = 0; for (let k = 0; k < 10000; ++k) noteDistance(k, k === 5001 ? 7 : k < 100 ? NaN : 1, 0);
+            const d = [...apart.distance.subarray(0, apart.count)]; return [apart.count, Math.max(...d.filter(v => v > 0)), isNaN(d[0]), d.some((v, k) => k && apart.t[k] <= apart.t[k - 1])]; })()""")
+        self.assertLessEqual(kept[0], 4096)
+        self.assertEqual(kept[1:], [7, True, False])
+
+    def test_settings_of_the_scene_or_of_its_copy(self):
+        self.split()
+        field = self.knob("ccd.tolerance")
+        self.click("forTwin")
+        self.page.js(f"(e => {{ e.value = '1e-4'; e.onchange(); }})({field})")
+        self.wait("viewer.live().state.twin.knobs[0].value === '1e-4'")
+        self.assertEqual(self.done("set"), [{"do": "set", "key": "ccd.tolerance", "value": "1e-4", "of": "twin"}])
+        self.wait(f"{field}.closest('.knob').classList.contains('differs') && {field}.value === '1e-4'")
+        self.assertIn("scene: 1e-6", self.page.js(f"{field}.closest('.knob').textContent"))
+        self.wait(lambda: self.shown("twinTitle") == "its copy: ccd.tolerance 1e-4")
+        self.click("forScene")
+        self.assertEqual(self.page.js(f"{field}.value"), "1e-6")
+        self.assertIn("copy: 1e-4", self.page.js(f"{field}.closest('.knob').textContent"))
+        switch = "document.querySelector('.switch[aria-label=gravity]')"
+        self.page.js(f"{switch}.click()")
+        self.wait(f"{switch}.closest('.effect').textContent.includes('copy: on')")
+        self.assertEqual(self.done("set")[1], {"do": "set", "key": "gravity", "value": "none"})
+        self.assertEqual(self.page.js("document.querySelectorAll('.differs').length"), 2)
+        # Costs and numbers of both.
+        self.page.js("document.getElementById('forTwin').scrollIntoView()")
+        self.assertEqual(self.page.js("[...document.getElementById('numbers').rows[0].cells].map(c => c.textContent)"), ["", "scene", "", "copy"])
+        row = self.page.js("[...[...document.getElementById('numbers').rows].find(r => r.cells[0].textContent === 'kinetic').cells].map(c => c.textContent)")
+        self.assertEqual(row, ["kinetic", "2.5000", "J", "2.5000"])
+        self.assertEqual(self.page.js("document.querySelectorAll('#legend.both b + b').length"), 6)
+        self.assert_quiet()
+
+    def test_grabs_in_both_halves(self):
+        self.split(running=False)
+        self.page.settle()
+        for copy in (False, True):
+            at = self.page.js(f"viewer.onScreen(0, {str(copy).lower()})")
+            self.page.mouse("Moved", at["x"], at["y"], "none")
+            self.page.mouse("Pressed", at["x"], at["y"])
+            self.wait("viewer.live().grabbed === 0")
+            for k in range(1, 9):
+                self.page.mouse("Moved", at["x"] + 5 * k, at["y"] - 4 * k)
+            self.wait(lambda: self.server.scene.grabbed == 0 and self.server.scene.twin.grabbed == 0)
+            self.pulled_to(at["x"] + 40, at["y"] - 32, copy)
+            self.page.mouse("Released", at["x"] + 40, at["y"] - 32)
+            self.wait("viewer.live().grabbed === -1")
+            self.page.settle()
+
+    def test_a_copy_that_fails_says_so(self):
+        self.split()
+        with self.server.change:
+            self.server.scene.twin.failed = "no impulse was found"
+            self.server.publish(True)
+        self.wait(lambda: "no impulse was found" in self.shown("twinTitle"))
+        frame = self.live()["frame"]
+        self.wait(f"viewer.live().frame > {frame + 5}")
+        self.assertEqual(self.shown("banner"), "")
+
+    def test_two_copies_of_a_thousand_bodies(self):
+        self.split(crowd_scene(), running=False)
+        own = self.page.js("viewer.cost(40)")
+        print(f"two copies of a crowd: {own:.2f} ms of our own work a picture")
+        self.assertLess(own, 1000 / 60)
+        self.assert_quiet()
+
+    def test_the_algorithm_step_by_step(self):
+        self.open()
+        self.wait("viewer.live().frame > 5")
+        self.page.press("a")
+        self.wait("viewer.algorithm().open && !viewer.live().running && viewer.live().shown === viewer.live().t")
+        check_steps(self, self.page, self.picture, self.server.scene.poses()[0, :3])
+        self.assert_quiet()
+
+    def test_the_algorithm_keeps_up_with_the_scene(self):
+        self.split(running=False)
+        self.page.press("a")
+        self.wait("viewer.algorithm().open && !viewer.twin().split")
+        frame = self.live()["frame"]
+        self.assertIn(f"frame {frame + 1}:", self.shown("accountFrame"))
+        self.page.press("ArrowRight")
+        self.wait(lambda: f"frame {frame + 2}:" in self.shown("accountFrame"))
+        self.click("accountNext")
+        self.wait(lambda: f"frame {frame + 3}:" in self.shown("accountFrame"))
+        self.page.press(" ")
+        self.wait("viewer.live().running && !viewer.algorithm().open && viewer.twin().split")
+        # One that cannot be worked out is one line.
+        self.server.scene.algorithm = lambda: None
+        self.page.press("a")
+        self.wait(lambda: "cannot be worked out" in self.shown("toast"))
+        self.assertFalse(self.page.js("viewer.algorithm().open"))
+
+    def test_warnings_and_knobs_that_cannot_be_set(self):
+        self.open()
+        self.assertEqual(self.shown("warnings"), "")
+        self.server.scene.warnings = ["body 3 is thin: 1e-7 m", "<b>another</b>"]
+        self.wait(lambda: self.shown("warnings") == "body 3 is thin: 1e-7 m<b>another</b>")
+        self.server.scene.warnings = []
+        self.wait(lambda: self.shown("warnings") == "")
+        self.assertTrue(self.page.js(f"{self.knob('envelope')}.disabled"))
+        self.assertIn("no body of this scene rests", self.page.js(f"{self.knob('envelope')}.closest('.knob').textContent"))
+        self.assertEqual(self.page.js("getComputedStyle(document.getElementById('levelKeys')).display === 'none' || document.getElementById('levelKeys').hidden"), True)
 
     def measure(self, scene):
         self.open(scene)
