@@ -77,6 +77,11 @@ class Program:
         if not self.address.startswith("http://127.0.0.1:"):
             raise RuntimeError(f"no address, but: {self.address} {self.process.communicate()[1]}")
 
+    def worked(self) -> float:
+        """Processor time so far, of all its threads, s."""
+        fields = Path(f"/proc/{self.process.pid}/stat").read_text().rpartition(")")[2].split()
+        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
     def interrupt(self) -> tuple[int, float]:
         """Ctrl-C: the exit code, and after how many seconds."""
         start = time.monotonic()
@@ -293,27 +298,28 @@ class EngineTest(unittest.TestCase):
         self.assertEqual(self.page.complaints, [])
 
     def measured(self, scene: Path, bodies: int):
-        """Frames and pictures a second, of a scene that runs. The machine has other work: the best of three."""
+        """Frames and pictures a second, of a scene that runs. The machine may have other work: so the processor's time of a frame,
+        of all threads of the program, is what must leave room for 30 frames a second; and the best of three counts."""
         best = None
         for _ in range(3):
             program = self.open(scene)
             self.assertEqual(self.page.js("viewer.live().bodies"), bodies)
             self.wait("viewer.live().frame > 10")
-            first = self.page.js("[viewer.live().frame, viewer.live().pictures, performance.now(), window.told.length]")
+            first, worked = self.page.js("[viewer.live().frame, viewer.live().pictures, performance.now(), window.told.length]"), program.worked()
             time.sleep(2)
-            last = self.page.js("[viewer.live().frame, viewer.live().pictures, performance.now()]")
+            last, worked = self.page.js("[viewer.live().frame, viewer.live().pictures, performance.now()]"), program.worked() - worked
             steps = [state["step_ms"] for state in self.page.js(f"window.told.slice({first[3]})")]
             seconds = (last[2] - first[2]) / 1000
-            found = {"step": statistics.median(steps), "frames": (last[0] - first[0]) / seconds, "pictures": (last[1] - first[1]) / seconds, "slowest": max(steps), "own": self.page.js("viewer.cost(3)")}
+            found = {"step": statistics.median(steps), "worked": 1000 * worked / max(1, last[0] - first[0]), "frames": (last[0] - first[0]) / seconds, "pictures": (last[1] - first[1]) / seconds, "slowest": max(steps), "own": self.page.js("viewer.cost(3)")}
             self.page.call("Page.navigate", url="about:blank")
             program.close()
-            if best is None or found["step"] < best["step"]:
+            if best is None or found["worked"] < best["worked"]:
                 best = found
-            if best["step"] < 1000 / 30 and best["own"] < 1000 / 60:
+            if best["worked"] < 1000 / 30 and best["own"] < 1000 / 60:
                 break
-        print(f"{scene.stem}: {best['frames']:.0f} frames simulated a second ({best['step']:.3g} ms each, median; {best['slowest']:.3g} ms the slowest of some), {best['pictures']:.0f} pictures drawn a second "
+        print(f"{scene.stem}: {best['frames']:.0f} frames simulated a second ({best['worked']:.3g} ms of processor time each; {best['step']:.3g} ms, median; {best['slowest']:.3g} ms the slowest of some), {best['pictures']:.0f} pictures drawn a second "
               f"by software (there is no graphics card), {best['own']:.2f} ms of the page's own work a picture", flush=True)
-        self.assertLess(best["step"], 1000 / 30)
+        self.assertLess(best["worked"], 1000 / 30)
         self.assertLess(best["own"], 1000 / 60)
 
     def test_a_thousand_boxes(self):
