@@ -12,7 +12,7 @@ namespace {
 using algorithm::Role;
 using algorithm::Step;
 
-// Of a long certificate the first and the last advances are shown.
+// A long certificate is shown by its first and its last advances.
 constexpr std::size_t kFirst = 14, kLast = 8;
 constexpr int kSamples = 32;   // of the curve of the true gap
 constexpr double kDisc = 0.8;  // of the smaller body's reach: a plane is drawn as a disc of this radius

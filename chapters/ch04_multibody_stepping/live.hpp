@@ -17,7 +17,7 @@ namespace fc::world {
 
 using NamedNumbers = std::vector<std::pair<std::string, double>>;
 
-// What people are told.
+// A line that a run of the scene would print, and when.
 struct LiveWarning {
   double time = 0;   // s, in the frame
   std::string text;  // a line
@@ -30,7 +30,7 @@ struct LiveFrame {
       account;  // J, by which the total energy changed: the chapter's own entries, besides the report's
   NamedNumbers stages;  // ms; the rest of the frame has no name
   NamedNumbers effects =
-      {};  // ms that an effect cost; no time is told twice, and one that cannot be told apart has none
+      {};  // ms that an effect cost: each time counts for one; absent where a time is not measured apart
   std::vector<LiveWarning> warnings = {};
 };
 

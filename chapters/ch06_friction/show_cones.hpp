@@ -21,7 +21,7 @@ Grip grip_of(const Vec3& impulse, const Vec3& normal, double mu);
 algorithm::Mark cone_mesh(const Vec3& point, const Vec3& normal, double mu, double height,
                           algorithm::Role role);
 
-// The residual after so many sweeps over all contacts, of an island as chapter 6's law was asked.
+// The residual of an island after this many sweeps over its contacts.
 struct ResidualAfter {
   int sweeps = 0;
   double residual = 0;

@@ -26,7 +26,7 @@ struct News {
 // newest message and misses those between.
 class Board {
  public:
-  // Of a scene without a copy, twin is empty, and pages that come later get none.
+  // Without a copy `twin` is empty; then a page that comes later gets no frame of it.
   void post(std::string frame, std::optional<std::string> twin, std::optional<std::string> state);
   void close();
 

@@ -19,7 +19,7 @@ struct Distance {
 // Times count as one if they differ by less than a part in 10^9 of the shorter frame.
 Distance distance_of(const Snapshot& a, const Snapshot& b);
 
-// What a page is told of the copy.
+// The copy, as the state message describes it.
 struct TwinState {
   const Simulation* simulation;
   Snapshot now;
@@ -27,7 +27,7 @@ struct TwinState {
   Distance distance;                  // from the scene
 };
 
-// Of the commands, `set` acts on one of the two, save answers for the scene, and all others act on both. One thread calls all
+// The command `set` acts on one of the two, `save` answers for the scene, and all others act on both. One thread calls all
 // of this; it throws what the scene throws. What the copy alone cannot do, the answer says.
 class Copies {
  public:
